@@ -142,9 +142,9 @@ pub enum ModelError {
         /// Name of the contact.
         contact: String,
     },
-    /// A body with a motion that nothing can stop.
-    #[error("{} is free to {}: no support and no contact stops it", .0, .0.motion)]
-    FreeBody(Unheld),
+    /// Bodies with motions that nothing can stop; some may move only because others do.
+    #[error("{}", free_bodies(.0))]
+    FreeBodies(Vec<Unheld>),
     /// One dof with two motions in one step.
     #[error(
         "step \"{step}\" prescribes the {component} displacement of node {node} twice, differently"
@@ -175,4 +175,18 @@ pub enum ModelError {
         /// Why.
         source: LoadError,
     },
+}
+
+/// Who can move, and how: of several, who alone.
+fn free_bodies(free: &[Unheld]) -> String {
+    match free {
+        [one] => format!(
+            "{one} is free to {}: no support and no contact stops it",
+            one.motion
+        ),
+        all => format!(
+            "{} bodies can move freely: no support and no contact stops them",
+            all.len()
+        ),
+    }
 }

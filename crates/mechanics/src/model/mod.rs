@@ -273,7 +273,7 @@ impl Followers<'_> {
             held.supports(&context.layout, &first.prescriptions);
         }
         match held.judge() {
-            Err(ModelError::FreeBody(_)) if hold_free => Ok(Vec::new()),
+            Err(ModelError::FreeBodies(_)) if hold_free => Ok(Vec::new()),
             judged => judged,
         }
     }

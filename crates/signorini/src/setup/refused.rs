@@ -1,11 +1,11 @@
 //! What makes no model, as messages.
 
-use super::held::{first_step, hold};
+use super::held::{LISTED, and_so_on, first_step, hold};
 use super::{constraints, loads};
 use signorini_io::case::Case;
 use signorini_io::diagnostic::{Code, Diagnostic, Place, codes};
 use signorini_mechanics::connector::ConnectorError;
-use signorini_mechanics::model::{ConstraintError, LoadError, ModelError};
+use signorini_mechanics::model::{ConstraintError, LoadError, ModelError, Unheld};
 use signorini_mechanics::solid::SolidError;
 
 /// The message for what makes no model.
@@ -15,8 +15,15 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
     if let Some(place) = place {
         message = message.at(place, "");
     }
-    if let ModelError::FreeBody(free) = error {
-        message = message.about_motion(free.motion.clone());
+    if let ModelError::FreeBodies(free) = error {
+        let motions = free.iter().map(|one| one.motion.clone());
+        message = motions.fold(message, Diagnostic::about_motion);
+        if free.len() > 1 {
+            let shown = free.iter().take(LISTED);
+            let free_to = |one: &Unheld| format!("{one} is free to {}", one.motion);
+            message = shown.map(free_to).fold(message, Diagnostic::note);
+            message = and_so_on(message, free.len());
+        }
     }
     let helps = helps(case, error, help).into_iter();
     helps.fold(message, Diagnostic::help)
@@ -52,8 +59,9 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             let (code, body, help) = of_solid_error(error);
             (code, of_body(body), help)
         }
-        ModelError::FreeBody(free) => {
-            let place = free.bodies.first().and_then(|body| of_body(body));
+        ModelError::FreeBodies(free) => {
+            let first = free.first().and_then(|one| one.bodies.first());
+            let place = first.and_then(|body| of_body(body));
             (&codes::FREE_BODY, place, "")
         }
         ModelError::Clash { step, .. } => {
@@ -142,7 +150,7 @@ fn of_contact_error<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
 fn helps(case: &Case, error: &ModelError, help: &str) -> Vec<String> {
     let of_contact = |help: &str, contact: &str| format!("{help}  of contact \"{contact}\"");
     match error {
-        ModelError::FreeBody(_) => hold(case, first_step(case)),
+        ModelError::FreeBodies(_) => hold(case, first_step(case)),
         ModelError::Unsuited {
             contact, remedy, ..
         } => vec![of_contact(&format!("write  {remedy}"), contact)],

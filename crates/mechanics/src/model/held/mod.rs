@@ -130,9 +130,9 @@ impl<'a> Held<'a> {
             add(own, more);
         }
         self.rows.shared.extend(contact.shared);
-        match self.unheld().into_iter().next() {
-            Some(free) => Err(ModelError::FreeBody(free)),
-            None => Ok(by_contact),
+        match self.unheld() {
+            free if free.is_empty() => Ok(by_contact),
+            free => Err(ModelError::FreeBodies(free)),
         }
     }
 
