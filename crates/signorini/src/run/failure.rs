@@ -4,6 +4,7 @@ use super::remedies::{self, Trouble};
 use crate::setup::{Model, first_step, hold};
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;
+use signorini_io::case::{Case, Contact};
 use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_linear::LinearError;
@@ -109,17 +110,40 @@ fn no_memory(cause: &Failure, saved: &Saved) -> Option<Diagnostic> {
 /// A system that is singular before anything was solved: something is not held.
 fn free_body(dof: Option<Dof>, model: &Model) -> Diagnostic {
     let motion = dof.and_then(|dof| motion(dof, model));
-    let message = match &motion {
-        Some((owner, _)) => format!("{owner} can move freely: nothing holds it"),
-        None => "something can move freely: nothing holds it".to_owned(),
+    let owner = motion.as_ref().map_or("something", |(owner, _)| owner);
+    let by_contact = !model.held_by_contact.is_empty();
+    let message = match by_contact {
+        true => format!("{owner} moves away: contact, which alone can hold it, does not"),
+        false => format!("{owner} can move freely: nothing holds it"),
     };
     let mut one = Diagnostic::error(&codes::FREE_BODY, message);
     if let Some((_, motion)) = motion {
         one = one.note(format!("free motions: at least {motion}"));
     }
     let one = one.note("nothing was solved");
+    let friction = by_contact.then(|| held_by_friction(&model.case));
     let help = hold(&model.case, first_step(&model.case));
-    help.into_iter().fold(one, Diagnostic::help)
+    let help = friction.into_iter().flatten().chain(help);
+    help.fold(one, Diagnostic::help)
+}
+
+/// Contacts that are named one by one.
+const LISTED: usize = 3;
+
+/// What to change where friction should hold a body.
+fn held_by_friction(case: &Case) -> Vec<String> {
+    let of_contact = |contact: &Contact| {
+        let name = &contact.name.value;
+        match contact.friction {
+            None => {
+                format!("where friction should hold it:  friction = ...  of contact \"{name}\"")
+            }
+            Some(_) => format!(
+                "where friction should hold it: more `friction` of contact \"{name}\", or less load along it"
+            ),
+        }
+    };
+    case.contacts.iter().take(LISTED).map(of_contact).collect()
 }
 
 /// What moves and how, in words.
