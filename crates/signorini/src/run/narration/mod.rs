@@ -58,7 +58,6 @@ impl Narrator {
 
     /// The lines for one piece of news; there may be none.
     pub fn lines(&mut self, news: &News<'_>) -> Vec<Line> {
-        let normal = |text: String| vec![line(text, Level::Normal)];
         match (news.event, news.detail) {
             (_, Detail::Start(facts)) => start(facts),
             (_, Detail::Finding(one)) => {
@@ -119,12 +118,13 @@ impl Narrator {
                 let name = format!("  expect {what}");
                 let found = format!("{}  ({} {tolerance})  {sign}", digits(*got), digits(*value));
                 let whole = format!("{name}  {found}");
+                let level = match ok {
+                    true => Level::Normal,
+                    false => Level::Important,
+                };
                 match whole.chars().count() < self.page.width {
-                    true => normal(whole),
-                    false => [name, format!("    {found}")]
-                        .into_iter()
-                        .flat_map(normal)
-                        .collect(),
+                    true => vec![line(whole, level)],
+                    false => vec![line(name, level), line(format!("    {found}"), level)],
                 }
             }
             (
