@@ -330,6 +330,12 @@ impl Checker<'_> {
                     {
                         one.help(format!("write {} = [\"{word}\"]", key.name))
                     }
+                    Shape::Either(shapes) => match key_inside(shapes, word) {
+                        Some(value) => {
+                            one.help(format!("write {} = {{ {word} = {value} }}", key.name))
+                        }
+                        None => one.note(format!("it takes: {}", listed(known()))),
+                    },
                     _ => one.note(format!("it takes: {}", listed(known()))),
                 });
             }
@@ -617,4 +623,19 @@ fn elsewhere(words: &'static Table, typed: &str) -> Option<&'static str> {
 /// The number of a node or element, where the value is one.
 pub(super) fn id(value: &Spanned<DeValue<'_>>) -> Option<u64> {
     count(value.get_ref())
+}
+
+/// What to write for a key of that name in a table that may stand in place of a word.
+fn key_inside(shapes: &[Shape], name: &str) -> Option<&'static str> {
+    let tables = shapes.iter().filter_map(|shape| match shape {
+        Shape::Table(table) => Some(table),
+        _ => None,
+    });
+    let key = tables
+        .flat_map(|table| table.keys)
+        .find(|key| key.name == name)?;
+    Some(match key.shape {
+        Shape::Table(_) => "{}",
+        _ => "...",
+    })
 }

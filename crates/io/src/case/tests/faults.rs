@@ -358,6 +358,7 @@ fn methods() -> Vec<Fault> {
 fn laws() -> Vec<Fault> {
     vec![
         ("two laws", law("{ penalty = 1e5, lagrange = {} }")),
+        ("a word for a law that is a table", law("\"lagrange\"")),
         (
             "two laws with multipliers",
             law("{ lagrange = {}, augmented = \"uzawa\" }"),
