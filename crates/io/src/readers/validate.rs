@@ -131,7 +131,7 @@ pub enum MeshIssue {
         elements: Sample,
     },
     /// Nodes at the same place that are not the same node.
-    #[error("nodes within {tolerance:e} of another one: {count}, such as {} and {}", pair[0], pair[1])]
+    #[error("nodes within {tolerance:.1e} of another one: {count}, such as {} and {}", pair[0], pair[1])]
     Coincident {
         /// Nodes that coincide with an earlier one.
         count: usize,

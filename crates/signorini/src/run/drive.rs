@@ -16,6 +16,7 @@ use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
 use signorini_io::checkpoint::{Checkpoint, Checkpoints};
+use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::fs::{BehindFs, FsError};
 use signorini_io::writers::frd::FrdError;
@@ -452,7 +453,13 @@ impl Run<'_, '_> {
         let allowed: Vec<&str> = self.model.case.allow.iter().map(String::as_str).collect();
         findings.silence(&allowed);
         let any = !findings.is_empty();
+        let is_of_deck = deck::is_of_deck(&self.model.case);
         for one in findings {
+            let one = if is_of_deck {
+                deck::one_in_words(one)
+            } else {
+                one
+            };
             self.report(one, found);
         }
         any
