@@ -8,6 +8,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use signorini::preview::{self, Preview};
 use signorini::{Diagnostics, Loaded, Model, build, load};
+use signorini_geometry::mesh::quality::Quality;
 use signorini_io::diagnostic::{Diagnostic, codes};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -133,14 +134,7 @@ fn members(model: &Model, preview: &Preview) -> Members {
     for block in solids {
         *elements.entry(block.element.name()).or_insert(0) += block.ncell();
     }
-    let quality = preview.quality.as_ref().map(|quality| {
-        json!({
-            "scaled_jacobian_min": quality.scaled_jacobian.min,
-            "scaled_jacobian_mean": quality.scaled_jacobian.mean,
-            "edge_ratio_min": quality.edge_ratio.min,
-            "inverted": quality.nbad,
-        })
-    });
+    let quality = preview.quality.as_ref().map(shapes);
     let bodies = model.case.bodies.iter().map(|body| {
         let groups: Vec<&str> = body.groups.iter().map(|g| g.value.as_str()).collect();
         let material = body.material.as_ref().map(|m| m.value.clone());
@@ -175,4 +169,14 @@ fn members(model: &Model, preview: &Preview) -> Members {
         "cost": preview.estimate,
         "lines": preview.lines,
     }))
+}
+
+/// The shapes of elements, as members of an object.
+pub(super) fn shapes(quality: &Quality) -> Value {
+    json!({
+        "scaled_jacobian_min": quality.scaled_jacobian.min,
+        "scaled_jacobian_mean": quality.scaled_jacobian.mean,
+        "edge_ratio_min": quality.edge_ratio.min,
+        "inverted": quality.nbad,
+    })
 }

@@ -7,7 +7,7 @@ use super::threads;
 use clap::Args;
 use serde_json::json;
 use signorini::{Diagnostics, RunOptions, build};
-use signorini_linear::SOLVERS;
+use signorini_linear::{LinearKind, SOLVERS};
 use std::time::Instant;
 
 /// Tell version, machine and threads, and solve something small: for reports of bugs.
@@ -23,7 +23,10 @@ impl Doctor {
     pub fn execute(self) -> u8 {
         let (os, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
         let threads = threads::make(None, None);
-        let solvers: Vec<&str> = SOLVERS.iter().map(|solver| solver.name).collect();
+        let features = features();
+        // those that a case can choose
+        let choices = SOLVERS.iter().filter(|s| s.kind != LinearKind::Saddle);
+        let solvers: Vec<&str> = choices.map(|solver| solver.name).collect();
         let folder = std::env::temp_dir();
         let trial = trial(&folder.join(format!("signorini-doctor-{}", std::process::id())));
         let code = trial.as_ref().map_or_else(|(code, _)| *code, |_| 0);
@@ -32,6 +35,7 @@ impl Doctor {
                 "version": signorini::VERSION,
                 "system": os,
                 "architecture": architecture,
+                "features": features,
                 "threads": threads,
                 "linear": solvers,
                 "temporary": folder,
@@ -42,7 +46,10 @@ impl Doctor {
         }
         let out = Console::stdout();
         out.line(&format!("signorini {}", signorini::VERSION));
-        out.line(&format!("system    {os} {architecture}"));
+        out.line(&format!(
+            "system    {os} {architecture} {}",
+            features.join(" ")
+        ));
         out.line(&format!("threads   {threads}"));
         out.line(&format!("linear    {}", solvers.join(", ")));
         out.line(&format!("temporary {}", folder.display()));
@@ -57,6 +64,22 @@ impl Doctor {
         }
         code
     }
+}
+
+/// Instructions of this processor that the linear algebra makes use of.
+fn features() -> Vec<&'static str> {
+    #[cfg(target_arch = "x86_64")]
+    let all = [
+        ("avx2", std::arch::is_x86_feature_detected!("avx2")),
+        ("fma", std::arch::is_x86_feature_detected!("fma")),
+        ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
+    ];
+    #[cfg(target_arch = "aarch64")]
+    let all = [("neon", std::arch::is_aarch64_feature_detected!("neon"))];
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    let all: [(&str, bool); 0] = [];
+    let has = all.into_iter().filter(|(_, has)| *has);
+    has.map(|(name, _)| name).collect()
 }
 
 /// Solves a small template into a folder that is removed afterwards.

@@ -229,7 +229,13 @@ fn results_are_told_about() {
             "stress (node, 6 components)",
         ],
     );
-    run(folder.path(), &["info", "case.toml"]).says(0, &["group brick: 1 volume cell"]);
+    run(folder.path(), &["info", "case.toml"]).says(
+        0,
+        &[
+            "group brick: 1 volume cell",
+            "quality (1 ideal, 0 flat): worst",
+        ],
+    );
     run(folder.path(), &["info", "."]).says(3, &["holds no results"]);
     run(folder.path(), &["info", "nothing.msh"]).says(3, &["nothing.msh"]);
 }

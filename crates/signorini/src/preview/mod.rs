@@ -130,8 +130,9 @@ fn gaps(contact: &ContactFrame, info: &ContactInfo, model: &Model) -> String {
     )
 }
 
-/// The shapes of the elements in three lines.
-fn shapes(mesh: &Mesh, quality: &Quality) -> Vec<String> {
+/// The shapes of the elements of a mesh, in three lines.
+#[must_use]
+pub fn shapes(mesh: &Mesh, quality: &Quality) -> Vec<String> {
     let Some(worst) = quality.worst.first() else {
         return Vec::new();
     };

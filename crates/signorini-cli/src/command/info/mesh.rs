@@ -1,8 +1,12 @@
 //! The content of a mesh.
 
+use crate::command::check::shapes;
 use serde::Serialize;
+use serde_json::Value;
+use signorini::preview;
 use signorini::text::{count, plural, short};
 use signorini_geometry::mesh::Mesh;
+use signorini_geometry::mesh::quality::{Quality, quality};
 use signorini_io::readers::{self, Severity};
 use std::collections::BTreeMap;
 
@@ -14,11 +18,15 @@ pub struct Content {
     cells: BTreeMap<&'static str, usize>,
     /// Smallest and largest coordinates along x, y and z.
     bounds: [Option<[f64; 2]>; 3],
+    /// The shapes of the elements, as `check` has them.
+    quality: Option<Value>,
     groups: Vec<Group>,
     issues: Vec<Issue>,
     notes: Vec<String>,
     #[serde(skip)]
     blocks: Vec<(&'static str, usize)>,
+    #[serde(skip)]
+    shapes: Vec<String>,
 }
 
 /// What a group has.
@@ -60,10 +68,14 @@ impl Content {
                 Some([low.min(x), high.max(x)])
             })
         });
+        let quality = quality(mesh, mesh.cells(mesh.dim()));
+        let in_words = |quality: &Quality| preview::shapes(mesh, quality);
         Self {
             nodes: mesh.nnode(),
             cells,
             bounds,
+            shapes: quality.as_ref().map(in_words).unwrap_or_default(),
+            quality: quality.as_ref().map(shapes),
             groups: groups(mesh),
             issues: issues(mesh),
             notes,
@@ -84,6 +96,7 @@ impl Content {
                 lines.push(format!("{name} from {} to {}", short(low), short(high)));
             }
         }
+        lines.extend(self.shapes.iter().cloned());
         lines.extend(self.groups.iter().map(Group::line));
         for issue in &self.issues {
             let help = issue.help.as_ref();
