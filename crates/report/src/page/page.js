@@ -261,6 +261,45 @@
     };
     let camera = view();
 
+    const scene = () => element("stage")._fullLayout.scene._scene;
+    // plotly draws all objects twice to find the one under the mouse, and again at each move of the mouse
+    const withoutPlotlyPicks = () => {
+      for (const object of scene().glplot.objects) { object.drawPick = undefined; object.pick = () => null; }
+    };
+    // the pixels of the nodes in the canvas, and their depths
+    const projected = (at) => {
+      const { glplot, dataScale } = scene(), { model, view, projection } = glplot.cameraParams, { width, height } = glplot.canvas.getBoundingClientRect();
+      const by = (m, [x, y, z, w]) => [0, 1, 2, 3].map((k) => m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k] * w);
+      return Array.from({ length: n }, (_, i) => {
+        const point = [at[0][i] * dataScale[0], at[1][i] * dataScale[1], at[2][i] * dataScale[2], 1];
+        const [x, y, z, w] = by(projection, by(view, by(model, point)));
+        return [(0.5 + 0.5 * x / w) * width, (0.5 - 0.5 * y / w) * height, z / w];
+      });
+    };
+    // the present places of the nodes, and the triangles that a click can hit: each layer before the next one
+    let targets = { at: [[], [], []], layers: [] };
+    // the node at a pixel of the canvas: a corner of the foremost triangle there, or one that is not far; -1 for none
+    const nodeAt = (x, y) => {
+      const place = projected(targets.at);
+      const apart = (i) => Math.hypot(place[i][0] - x, place[i][1] - y);
+      const nearest = (best, i) => (best < 0 || apart(i) < apart(best) ? i : best);
+      for (const layer of targets.layers) {
+        let depth = Infinity, hit = -1;
+        for (const t of layer) {
+          const [a, b, c] = [place[corner[0][t]], place[corner[1][t]], place[corner[2][t]]];
+          const bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1], area = bx * cy - cx * by;
+          const q = ((x - a[0]) * cy - cx * (y - a[1])) / area, r = (bx * (y - a[1]) - (x - a[0]) * by) / area;
+          if (!(q >= 0 && r >= 0 && q + r <= 1)) continue;
+          const z = a[2] + q * (b[2] - a[2]) + r * (c[2] - a[2]);
+          if (z < depth) { depth = z; hit = t; }
+        }
+        if (hit >= 0) return corner.map((nodes) => nodes[hit]).reduce(nearest, -1);
+      }
+      const around = targets.layers.flatMap((layer) => layer.flatMap((t) => corner.map((nodes) => nodes[t])));
+      const found = [...around, ...segments].reduce(nearest, -1);
+      return found >= 0 && apart(found) < 8 ? found : -1;
+    };
+
     const light = { ambient: v.plane ? 1 : 0.78, diffuse: v.plane ? 0 : 0.4, specular: 0.03, roughness: 0.9, facenormalsepsilon: 0, vertexnormalsepsilon: 0 };
     const draw = async () => {
       const [name, which] = choice.value.split("|"), field = fields[name], component = Number(which), frame = state.frame;
@@ -289,7 +328,7 @@
         (known && !(v.plane && field.contact) ? coloured : grey).push(t);
       }
       const some = (which) => ({ i: which.map((t) => corner[0][t]), j: which.map((t) => corner[1][t]), k: which.map((t) => corner[2][t]) });
-      const mesh = { type: "mesh3d", x: at[0], y: at[1], z: at[2], flatshading: true, lighting: light, lightposition: { x: -20000, y: -60000, z: 90000 }, hoverinfo: "none" };
+      const mesh = { type: "mesh3d", x: at[0], y: at[1], z: at[2], flatshading: true, lighting: light, lightposition: { x: -20000, y: -60000, z: 90000 } };
       const traces = [];
       const show = v.plane || !field?.contact ? "whole" : state.show;
       if (coloured.length) traces.push({ ...mesh, ...some(coloured), intensity: field.cells ? coloured.map((t) => values[t]) : values.map((x) => (x === x ? x : low)),
@@ -313,7 +352,7 @@
           for (const i of [pairs[e], pairs[e + 1]]) { x.push(lift[0][i]); y.push(lift[1][i]); z.push(lift[2][i]); node.push(i); }
           x.push(null); y.push(null); z.push(null); node.push(-1);
         }
-        return { type: "scatter3d", mode: "lines", x, y, z, customdata: node, hoverinfo: "none", showlegend: false, ...more(node) };
+        return { type: "scatter3d", mode: "lines", x, y, z, showlegend: false, ...more(node) };
       };
       if (edgesBox.checked && show === "whole") {
         let drawn = edges;
@@ -337,20 +376,22 @@
           if (Math.hypot(all[i], all[n + i], all[2 * n + i]) < 0.5) continue;
           [x, y, z].forEach((to, k) => to.push(at[k][i], at[k][i] + length * all[k * n + i], null));
         }
-        traces.push({ type: "scatter3d", mode: "lines", x, y, z, hoverinfo: "none", showlegend: false, line: { color: "#d1495b", width: 3 } });
+        traces.push({ type: "scatter3d", mode: "lines", x, y, z, showlegend: false, line: { color: "#d1495b", width: 3 } });
       }
       if (state.picked >= 0) {
         const i = state.picked;
         traces.push({ type: "scatter3d", mode: "markers+text", x: [at[0][i]], y: [at[1][i]], z: [at[2][i]], text: [String(labels[i])], textposition: "top center",
-          textfont: { color: "#b3261e", size: 13 }, marker: { size: 4, color: "#b3261e" }, hoverinfo: "none", showlegend: false });
+          textfont: { color: "#b3261e", size: 13 }, marker: { size: 4, color: "#b3261e" }, showlegend: false });
       }
       const axis = (k) => ({ range: ranges[k], visible: true, title: { text: "xyz"[k] }, showspikes: false, showbackground: false, gridcolor: "#eef0f3", zeroline: false,
         nticks: 5, tickfont: { size: 10, color: "#8a919c" } });
       await plot("stage", traces, {
         margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "#fff", uirevision: "view", font: { family: "system-ui, Segoe UI, Roboto, Arial, sans-serif", size: 12, color: SOFT },
         scene: { xaxis: axis(0), yaxis: axis(1), zaxis: v.plane ? { ...axis(2), visible: false } : axis(2), aspectmode: "manual", aspectratio: ratio(),
-          camera, dragmode: v.plane ? "pan" : "turntable", uirevision: "view" },
+          camera, dragmode: v.plane ? "pan" : "turntable", hovermode: false, uirevision: "view" },
       });
+      withoutPlotlyPicks();
+      targets = { at, layers: show === "ghost" ? [coloured, grey] : [show === "contact" ? coloured : coloured.concat(grey)] };
       const { number, time } = v.frames[frame] ?? { number: 0, time: 0 };
       element("time").textContent = data.check ? "initial" : `${number}: t = ${short(time, 4)}`;
       await showPicked();
@@ -422,12 +463,17 @@
       state.playing = setInterval(() => { if (busy) return; state.frame = (state.frame + 1) % v.frames.length; slider.value = state.frame; redraw(); }, 350);
     };
     await redraw();
-    element("stage").on("plotly_click", (event) => {
-      const point = event.points[0];
-      const node = point.data.type === "mesh3d" ? point.pointNumber : point.data.customdata?.[point.pointNumber] ?? -1;
+    // a click, not the end of a drag
+    const stage = element("stage");
+    let pressed = [0, 0];
+    stage.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; });
+    stage.addEventListener("click", (event) => {
+      const { clientX: x, clientY: y, target } = event;
+      if (target !== scene().glplot.canvas || Math.hypot(x - pressed[0], y - pressed[1]) > 4) return;
+      const { left, top } = target.getBoundingClientRect(), node = nodeAt(x - left, y - top);
       if (node < 0) return;
       state.picked = node;
-      element("pick").value = labels[state.picked];
+      element("pick").value = labels[node];
       redraw();
     });
   };
