@@ -225,6 +225,13 @@ impl Results {
         )
     }
 
+    /// Whether the model is a body of revolution: the only resultant that is not zero is the force along y.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        let model = self.case.get("model").and_then(|model| model.get("space"));
+        model.and_then(toml::Value::as_str) == Some("axisymmetric")
+    }
+
     /// The label of the case's units, such as `mm-N-MPa`; empty where it is not known.
     #[must_use]
     pub fn units(&self) -> &str {

@@ -147,6 +147,7 @@ fn place(point: &[f64; 3]) -> String {
 
 fn at_end(results: &Results, name: &str, contact: &ContactSummary, sites: &Sites) -> Markup {
     let units = results.units();
+    let axisymmetric = results.is_axisymmetric();
     let of = |quantity: &str| unit(quantity, units);
     let name = name.replace('/', "~1");
     let key = |rest: &str| format!("contacts/{name}/{rest}");
@@ -183,10 +184,18 @@ fn at_end(results: &Results, name: &str, contact: &ContactSummary, sites: &Sites
     html! {
         table.wide {
             caption { "At the end" }
-            thead { tr { th { "" } th.number { "x" } th.number { "y" } th.number { "z" } th { "" } } }
+            @if axisymmetric {
+                thead { tr { th { "" } th.number { "value" } th colspan="2" { "" } th { "" } } }
+            } @else {
+                thead { tr { th { "" } th.number { "x" } th.number { "y" } th.number { "z" } th { "" } } }
+            }
             tbody {
-                (vector("force of the primary on the secondary side", &contact.force, "force"))
-                (vector("moment about the origin", &contact.moment, "moment"))
+                @if axisymmetric {
+                    (scalar("axial force of the primary on the secondary side, along y", contact.force[1], "force/1", html! {}))
+                } @else {
+                    (vector("force of the primary on the secondary side", &contact.force, "force"))
+                    (vector("moment about the origin", &contact.moment, "moment"))
+                }
                 (scalar("largest pressure", contact.pressure_max, "pressure_max", html! {
                     @if let Some((id, point)) = &sites.pressure { "node " (node(*id)) " " (place(point)) }
                 }))
@@ -198,7 +207,9 @@ fn at_end(results: &Results, name: &str, contact: &ContactSummary, sites: &Sites
                 (scalar("sticking area", contact.area_stick, "area_stick", html! {}))
                 (scalar("slipping area", contact.area_slip, "area_slip", html! { "closed area without friction counts here" }))
                 (imbalance("|force on secondary + force on primary|", contact.imbalance_force, &key("imbalance_force"), "of the force"))
-                (imbalance("the same of moments", contact.imbalance_moment, &key("imbalance_moment"), "of the moment"))
+                @if !axisymmetric {
+                    (imbalance("the same of moments", contact.imbalance_moment, &key("imbalance_moment"), "of the moment"))
+                }
             }
         }
     }
@@ -220,7 +231,11 @@ fn extremes(results: &Results, name: &str) -> Markup {
             .max_by(|a, b| (sign * a.1).total_cmp(&(sign * b.1)))
             .map(|(row, v)| (row, *v))
     };
-    let forces = ["force_x", "force_y", "force_z"].map(of);
+    let forces: &[&str] = match results.is_axisymmetric() {
+        true => &["force_y"],
+        false => &["force_x", "force_y", "force_z"],
+    };
+    let forces: Vec<Vec<f64>> = forces.iter().map(|force| of(force)).collect();
     let size = |row: usize| -> f64 {
         let squares = forces.iter().filter_map(|f| f.get(row)).map(|f| f * f);
         squares.sum::<f64>().sqrt()

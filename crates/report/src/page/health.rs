@@ -104,11 +104,13 @@ fn reactions(results: &Results, end: Option<&Frame>) -> Markup {
             .for_each(|(sum, value)| *sum += value);
     }
     let force = unit("force", results.units());
+    let axes = ["x", "y", "z"].into_iter().zip(sum);
+    let axes = axes.filter(|(axis, _)| *axis == "y" || !results.is_axisymmetric());
     html! {
         div {
             h3 { "Reactions" }
             table { tbody {
-                @for (axis, value) in ["x", "y", "z"].into_iter().zip(sum) {
+                @for (axis, value) in axes {
                     tr { th { "sum of all reactions, " (axis) } (derived(value)) td { (force) } }
                 }
             } }

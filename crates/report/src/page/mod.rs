@@ -41,6 +41,20 @@ const VIEW_LEAST: usize = 500_000;
 /// More rows of a history than these are thinned for plots.
 const ROWS_MOST: usize = 5_000;
 
+/// Columns of a history that have no meaning for bodies of revolution, by their ends.
+const NOT_AXISYMMETRIC: [&str; 10] = [
+    ".force_x",
+    ".force_z",
+    ".moment_x",
+    ".moment_y",
+    ".moment_z",
+    ".displacement_z",
+    ".rotation_x",
+    ".rotation_y",
+    ".rotation_z",
+    ".center_z",
+];
+
 /// What a page shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PageOptions {
@@ -310,7 +324,11 @@ fn history(results: &Results) -> Value {
     let kept: Vec<usize> = (0..table.rows.len())
         .filter(|row| row % stride == 0 || *row == last)
         .collect();
+    let axisymmetric = results.is_axisymmetric();
     let columns: Vec<Value> = (table.columns.iter().enumerate())
+        .filter(|(_, name)| {
+            !axisymmetric || !NOT_AXISYMMETRIC.iter().any(|end| name.ends_with(end))
+        })
         .map(|(column, name)| {
             let values: Vec<Value> = kept
                 .iter()

@@ -218,6 +218,31 @@ fn a_model_in_the_plane_without_contact_has_a_page() {
 }
 
 #[test]
+fn bodies_of_revolution_show_only_the_axial_force() {
+    let fs = complete();
+    let resolved = String::from_utf8(fs.read(&file("case.resolved.toml")).unwrap()).unwrap();
+    let resolved = resolved.replace("space = \"3d\"", "space = \"axisymmetric\"");
+    fs.write(&file("case.resolved.toml"), resolved.as_bytes())
+        .unwrap();
+    let page = text(&fs);
+    let keys: Vec<String> = numbers(&page).into_iter().map(|(key, _)| key).collect();
+    let has = |key: &str| keys.iter().any(|other| other == key);
+    assert!(has("contacts/foot/force/1"));
+    for key in [
+        "force/0",
+        "force/2",
+        "moment/0",
+        "moment/2",
+        "imbalance_moment",
+    ] {
+        assert!(!has(&format!("contacts/foot/{key}")), "{key}");
+    }
+    assert!(page.contains("\"name\":\"foot.force_y\""));
+    assert!(!page.contains("\"name\":\"foot.force_x\""));
+    assert!(page.contains("sum of all reactions, y") && !page.contains("sum of all reactions, x"));
+}
+
+#[test]
 fn two_runs_are_compared_column_by_column() {
     let fs = complete();
     let other = Path::new("other.out");
