@@ -481,11 +481,15 @@
     const link = event.target.closest("a.node");
     if (link) showNode(link.dataset.node);
   });
-  // a printed page shows what is folded, and plots of its width
+  // A printed page shows what is folded, and plots scaled to the columns of A4. Its layout is not known yet, and Plotly would
+  // draw after it.
+  const PRINTED = [["#stage", 470], [".plot.tall, .plot.wide", 670], [".plot", 328]];
+  const eachPlot = (act) => document.querySelectorAll(".js-plotly-plot").forEach((place) => act(place));
   addEventListener("beforeprint", () => {
     document.querySelectorAll("details").forEach((one) => { one.open = true; });
-    document.querySelectorAll(".js-plotly-plot").forEach((one) => Plotly.Plots.resize(one));
+    eachPlot((place) => { place.style.zoom = PRINTED.find(([places]) => place.matches(places))[1] / place.clientWidth; });
   });
+  addEventListener("afterprint", () => eachPlot((place) => { place.style.zoom = ""; }));
 
   try {
     if (!data.check) { drawHistories(); drawConvergence(); drawQuality(); }
