@@ -36,6 +36,8 @@ pub struct View {
     pub chunks: Vec<(String, Chunk)>,
     /// What was left out, in sentences.
     pub notes: Vec<String>,
+    /// The address of a picture that is shown until the script draws the view.
+    pub still: Option<String>,
 }
 
 impl View {

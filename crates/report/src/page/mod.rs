@@ -19,6 +19,7 @@ mod provenance;
 
 use crate::error::ReportError;
 use crate::pack::Chunk;
+use crate::picture;
 use crate::results::{Frame, Results};
 use crate::text::unit;
 use crate::view::{self, View};
@@ -106,6 +107,7 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
     let start = first.as_ref().and_then(|frame| frame.as_ref().ok());
     let end = last.as_ref().and_then(|frame| frame.as_ref().ok());
     let quality = health::shapes(start);
+    let still = end.and_then(|frame| picture::still(frame, &results.title(), results.units()));
     let data = json!({
         "history": history(&results),
         "other": other.as_ref().map(history),
@@ -128,6 +130,7 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
     drop(first);
     let script = plotly().text.len();
     let rest = before.0.len() + after.0.len() + data.to_string().len() + STYLE.len() + SCRIPT.len();
+    let rest = rest + still.as_ref().map_or(0, String::len);
     let budget = options
         .budget
         .saturating_sub(script + rest + 20_000)
@@ -136,12 +139,13 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
         let view = view::of_results(fs, &results, end?, budget);
         view.map_err(|error| error.to_string())
     });
-    let view = match view.transpose() {
+    let mut view = match view.transpose() {
         Ok(view) => view.flatten().unwrap_or_else(|| missing(
             "The results hold no frames for a view: the case writes none in the format vtu, or no frame was reached.",
         )),
         Err(error) => missing(&format!("There is no view: {error}.")),
     };
+    view.still = still;
     Ok(whole(&results.title(), &before, &view, &after, data))
 }
 
@@ -285,7 +289,9 @@ fn viewer(view: &View) -> Markup {
                 }
                 div #parts.controls {}
                 div.viewer {
-                    div #stage {}
+                    div #stage {
+                        @if let Some(still) = &view.still { img #still src=(still) alt="The model in the last frame"; }
+                    }
                     aside #picked { p.hint { "Click a node, or type its number, to see its values." } }
                 }
                 p.hint { (crate::text::grouped(number("nnode") as usize)) " nodes on the surface, "

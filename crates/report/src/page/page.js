@@ -39,11 +39,14 @@
     return whole;
   };
 
+  const note = (text) => {
+    const place = document.createElement("p");
+    place.className = "note";
+    place.textContent = text;
+    return place;
+  };
   const failed = (error) => {
-    const note = document.createElement("p");
-    note.className = "note";
-    note.textContent = "Plots and view cannot be drawn in this browser: " + error;
-    document.querySelector("main").prepend(note);
+    document.querySelector("main").prepend(note("Plots and view cannot be drawn in this browser: " + error));
     document.body.dataset.ready = "failed";
   };
   try {
@@ -175,6 +178,11 @@
   const chunk = async (name) => (kept[name] ??= await unpack(name));
   const startView = async () => {
     if (!v) return;
+    if (!document.createElement("canvas").getContext("webgl")) {
+      element("view").querySelectorAll(".controls").forEach((one) => { one.hidden = true; });
+      element("picked").replaceChildren(note("This browser has no WebGL, which the view needs" + (element("still") ? ": a picture of the last frame is shown." : ".")));
+      return;
+    }
     const [points, labels, triangles, parts, edges, segments] = await Promise.all(["points", "labels", "triangles", "parts", "edges", "lines"].map(chunk));
     const n = v.nnode, nt = v.ntriangle;
     const fields = Object.fromEntries(v.fields.map((field) => [field.name, field]));
@@ -428,10 +436,7 @@
       const i = labels.indexOf(Number(label));
       element("pick").value = label;
       if (i < 0) {
-        const note = document.createElement("p");
-        note.className = "note";
-        note.textContent = `Node ${label} is not on the surface that is shown.`;
-        element("picked").replaceChildren(note);
+        element("picked").replaceChildren(note(`Node ${label} is not on the surface that is shown.`));
         return;
       }
       state.picked = i;
@@ -462,6 +467,7 @@
       element("play").textContent = "❚❚";
       state.playing = setInterval(() => { if (busy) return; state.frame = (state.frame + 1) % v.frames.length; slider.value = state.frame; redraw(); }, 350);
     };
+    element("still")?.remove();
     await redraw();
     // a click, not the end of a drag
     const stage = element("stage");

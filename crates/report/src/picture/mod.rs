@@ -18,6 +18,8 @@ use crate::fields::{self, DISPLACEMENT, Field, MAIN, STATUS, Sites};
 use crate::results::{Frame, Results};
 use crate::skin::Skin;
 use crate::text::{short, unit};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use camera::Camera;
 use letters::{Sheet, Side};
 use raster::{Corner, FINE, Raster};
@@ -101,6 +103,22 @@ pub fn picture(
         });
     }
     scene.draw(options)
+}
+
+/// A picture of a frame as large as the view of a page, as the address of an image that holds it; nothing where it cannot be
+/// drawn.
+pub(crate) fn still(frame: &Frame, title: &str, units: &str) -> Option<String> {
+    let scene = Scene::new(frame, title, units);
+    let options = PictureOptions {
+        width: 880,
+        height: 560,
+        ..PictureOptions::default()
+    };
+    let picture = match scene.skin.is_empty() {
+        true => None,
+        false => scene.draw(&options).ok(),
+    };
+    picture.map(|png| format!("data:image/png;base64,{}", STANDARD.encode(png)))
 }
 
 /// The names by which [`PictureOptions::field`] can ask for fields of a frame, in their order.
