@@ -15,7 +15,7 @@ use signorini_geometry::tensor::Vec3;
 use signorini_io::fs::Fs;
 use signorini_io::vtk::Vtu;
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// More frames than these are not shown.
 const FRAMES_MOST: usize = 80;
@@ -99,7 +99,41 @@ fn thinned(numbers: &[usize], count: usize) -> Vec<usize> {
     chosen
 }
 
-/// The view of all frames of a run, of which `end` is the last one; nothing where no frame can be drawn.
+/// The names of the parts: their numbers, and the contacts whose secondary sides they carry. The pairs of contact frames are
+/// places in `contacts`.
+fn part_names(skin: &Skin, frame: Option<&Vtu>, contacts: &[String]) -> Vec<String> {
+    let mut part_of = HashMap::new();
+    for (triangle, &part) in skin.triangles.iter().zip(&skin.parts) {
+        let labels = triangle
+            .iter()
+            .filter_map(|&node| skin.labels.get(node as usize));
+        part_of.extend(labels.map(|&label| (label, part as usize)));
+    }
+    let numbers = |name: &str| frame?.point_field(name)?.numbers.to_i64();
+    let ids = numbers("node_id").unwrap_or_default();
+    let pairs = numbers("contact_pair").unwrap_or_default();
+    let mut sides = vec![BTreeSet::new(); skin.npart];
+    for (id, &pair) in ids.iter().zip(&pairs) {
+        let contact = usize::try_from(pair)
+            .ok()
+            .and_then(|pair| contacts.get(pair));
+        let side = part_of.get(id).and_then(|&part| sides.get_mut(part));
+        if let (Some(side), Some(contact)) = (side, contact) {
+            side.insert(contact.as_str());
+        }
+    }
+    let name = |(part, sides): (usize, &BTreeSet<&str>)| {
+        let sides: Vec<&str> = sides.iter().copied().collect();
+        match sides.is_empty() {
+            true => format!("part {}", part + 1),
+            false => format!("part {}, secondary side of {}", part + 1, sides.join(", ")),
+        }
+    };
+    sides.iter().enumerate().map(name).collect()
+}
+
+/// The view of all frames of a run, of which `end` is the last one; nothing where no frame can be drawn. `contacts` are the
+/// names of all contacts in the order of the case.
 ///
 /// # Errors
 /// A frame that cannot be read.
@@ -107,6 +141,7 @@ pub fn of_results(
     fs: &dyn Fs,
     results: &Results,
     end: Frame,
+    contacts: &[String],
     budget: usize,
 ) -> Result<Option<View>, ReportError> {
     let whole = Skin::of(&end.volume);
@@ -116,6 +151,7 @@ pub fn of_results(
     let nframe = results.frames.len();
     let all: Vec<usize> = (0..nframe).collect();
     let mut fields = fields::fields(&end);
+    let parts = part_names(&whole, end.contact.as_ref(), contacts);
     drop(end);
     fields.sort_by_key(|field| {
         MAIN.iter()
@@ -135,7 +171,7 @@ pub fn of_results(
         let rest = budget as f64 - (skin.points.len() * 14 + skin.triangles.len() * 5) as f64;
         while plan.size(skin.nodes.len()) > rest && plan.shrink() {}
         let view = (plan.size(skin.nodes.len()) <= rest)
-            .then(|| packed(fs, results, &skin, &plan))
+            .then(|| packed(fs, results, &skin, &plan, &parts))
             .transpose()?;
         match view {
             Some(view) if view.size() <= budget => break (skin, view),
@@ -217,7 +253,8 @@ pub fn of_grid(grid: &Vtu, units: &str) -> Option<View> {
         view.chunks
             .push((format!("field-{}", array.name), Chunk::f32(&values)));
     }
-    surface(&mut view, &skin, &[(0, 0.0)], described);
+    let parts = part_names(&skin, None, &[]);
+    surface(&mut view, &skin, &[(0, 0.0)], described, &parts);
     Some(view)
 }
 
@@ -258,7 +295,13 @@ fn describe(field: &Field, frames: &[Vec<f64>], units: &str, steps: Option<[f64;
 }
 
 /// Packs the surface with the planned frames and fields.
-fn packed(fs: &dyn Fs, results: &Results, skin: &Skin, plan: &Plan) -> Result<View, ReportError> {
+fn packed(
+    fs: &dyn Fs,
+    results: &Results,
+    skin: &Skin,
+    plan: &Plan,
+    parts: &[String],
+) -> Result<View, ReportError> {
     let mut values: Vec<Vec<Vec<f64>>> = vec![Vec::new(); plan.fields.len()];
     let mut shown = Vec::new();
     let mut view = View::default();
@@ -300,12 +343,18 @@ fn packed(fs: &dyn Fs, results: &Results, skin: &Skin, plan: &Plan) -> Result<Vi
         ));
         view.chunks.push((format!("field-{}", field.name), chunk));
     }
-    surface(&mut view, skin, &shown, described);
+    surface(&mut view, skin, &shown, described, parts);
     Ok(view)
 }
 
 /// Adds the surface and the description.
-fn surface(view: &mut View, skin: &Skin, frames: &[(usize, f64)], described: Vec<Value>) {
+fn surface(
+    view: &mut View,
+    skin: &Skin,
+    frames: &[(usize, f64)],
+    described: Vec<Value>,
+    parts: &[String],
+) {
     let points: Vec<f64> = skin.points.iter().flatten().copied().collect();
     let flat = |pairs: &[[u32; 2]]| Chunk::u32(pairs.iter().flatten().copied());
     let edges: &[[u32; 2]] = if skin.edges.len() > 150_000 {
@@ -330,7 +379,7 @@ fn surface(view: &mut View, skin: &Skin, frames: &[(usize, f64)], described: Vec
     view.description = json!({
         "nnode": skin.nodes.len(),
         "ntriangle": skin.triangles.len(),
-        "npart": skin.npart,
+        "parts": parts,
         "nedge": edges.len(),
         "plane": skin.is_plane,
         "frames": frames.iter().map(|(number, time)| json!({"number": number, "time": time})).collect::<Vec<Value>>(),

@@ -136,7 +136,7 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
         .saturating_sub(script + rest + 20_000)
         .max(VIEW_LEAST);
     let view = last.map(|end| {
-        let view = view::of_results(fs, &results, end?, budget);
+        let view = view::of_results(fs, &results, end?, &contacts::names(&results), budget);
         view.map_err(|error| error.to_string())
     });
     let mut view = match view.transpose() {

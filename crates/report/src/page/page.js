@@ -222,15 +222,15 @@
     const hasContact = v.fields.some((field) => field.contact);
     if (!hasContact || v.plane) element("label-show").hidden = true;
     if (v.frames.length < 2) ["play", "frame"].forEach((id) => { element(id).disabled = true; });
-    if (v.npart > 1 && v.npart <= 16) {
-      for (let part = 0; part < v.npart; part++) {
+    if (v.parts.length > 1 && v.parts.length <= 16) {
+      v.parts.forEach((name, part) => {
         const label = document.createElement("label"), box = document.createElement("input");
         box.type = "checkbox";
         box.checked = true;
         box.onchange = () => { box.checked ? state.hidden.delete(part) : state.hidden.add(part); draw(); };
-        label.append(box, ` part ${part + 1}`);
+        label.append(box, " " + name);
         element("parts").append(label);
-      }
+      });
     }
 
     // the box that all frames fit in
@@ -428,9 +428,12 @@
       }
       const head = document.createElement("h3");
       head.textContent = `Node ${labels[i]}`;
+      const part = document.createElement("p");
+      part.className = "hint";
+      part.textContent = v.parts.length > 1 ? v.parts[parts[Math.floor(triangles.indexOf(i) / 3)]] ?? "" : "";
       place.dataset.node = String(labels[i]);
       place.dataset.frame = String(v.frames[state.frame]?.number ?? 0);
-      place.replaceChildren(head, table);
+      place.replaceChildren(head, part, table);
     };
     showNode = (label) => {
       const i = labels.indexOf(Number(label));

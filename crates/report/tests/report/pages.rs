@@ -249,6 +249,12 @@ fn the_view_is_a_picture_until_the_script_draws_it() {
 }
 
 #[test]
+fn parts_are_named_by_the_contacts_whose_secondary_sides_they_carry() {
+    let parts = "\"parts\":[\"part 1\",\"part 2, secondary side of foot\"]";
+    assert!(text(&complete()).contains(parts));
+}
+
+#[test]
 fn two_runs_are_compared_column_by_column() {
     let fs = complete();
     let other = Path::new("other.out");
