@@ -153,8 +153,10 @@ def test_the_interpreter_is_free_while_solving() -> None:
     assert ticks[0] > 10
 
 
+# the programs below take SIGINT also where the tests run as a job in the background, whose children ignore it
 INTERRUPTED = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.path.insert(0, {tests!r})
 import signorini as sg
 from tests.test_control import long_case
@@ -190,7 +192,8 @@ def test_control_c_leaves_a_run_that_resumes_to_the_same_bits(tmp_path: Path) ->
 
 
 MANY = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.path.insert(0, {tests!r})
 import signorini as sg
 from tests.test_control import long_case
