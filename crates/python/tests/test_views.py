@@ -115,6 +115,15 @@ def test_a_folder_reads_back_as_what_was_computed(tmp_path: Path) -> None:
     assert np.array_equal(again.mesh.points, case.mesh.points)  # type: ignore[union-attr]  # pyright: ignore
 
 
+def test_a_folder_has_the_findings_of_its_run(tmp_path: Path) -> None:
+    case = pressed()
+    case.units = "mm"
+    found = case.run(tmp_path / "out").diagnostics
+    again = sg.open(tmp_path / "out").diagnostics
+    assert [(one.severity, one.code, one.line) for one in again] == [(one.severity, one.code, one.line) for one in found]
+    assert "S0403" in {one.code for one in again if one.severity == "warning"}
+
+
 def test_frames_go_to_pyvista_and_meshio(result: sg.Result) -> None:
     pytest.importorskip("pyvista")
     pytest.importorskip("meshio")

@@ -38,7 +38,7 @@ def open(folder: str | os.PathLike[str]) -> Result:
     result = Result(
         status=str(summary.get("status", "running")),
         exit_code=int(summary.get("exit_code", 0)),
-        diagnostics=summary.get("diagnostics", ()),
+        diagnostics=_diagnostics(folder),
         summary=summary,
         history=_text(os.path.join(folder, "history.csv")),
         convergence=_text(os.path.join(folder, "convergence.csv")),
@@ -66,6 +66,14 @@ def _text(path: str) -> str:
 def _json(path: str) -> dict[str, Any]:
     text = _text(path)
     return json.loads(text) if text else {}
+
+
+def _diagnostics(folder: str) -> list[dict[str, Any]]:
+    """Warnings and errors in their order, with their severity and place."""
+    events = _text(os.path.join(folder, "events.jsonl")).splitlines()
+    # the last line may be in the middle of being written, and a resumed run repeats what it finds before its first step
+    lines = dict.fromkeys(line for line in events if '"ev":"diagnostic"' in line and line.endswith("}"))
+    return [{key: value for key, value in json.loads(line).items() if key not in ("v", "ev")} for line in lines]
 
 
 def _files(path: str) -> list[tuple[float, str]]:
