@@ -118,10 +118,9 @@ def test_a_folder_reads_back_as_what_was_computed(tmp_path: Path) -> None:
 def test_a_folder_has_the_findings_of_its_run(tmp_path: Path) -> None:
     case = pressed()
     case.units = "mm"
-    found = case.run(tmp_path / "out").diagnostics
-    again = sg.open(tmp_path / "out").diagnostics
-    assert [(one.severity, one.code, one.line) for one in again] == [(one.severity, one.code, one.line) for one in found]
-    assert "S0403" in {one.code for one in again if one.severity == "warning"}
+    runs = case.run(tmp_path / "out"), sg.open(tmp_path / "out")
+    found, again = ([(one.severity, one.code, one.line) for one in run.diagnostics] for run in runs)
+    assert again == found and ("warning", "S0403") in [one[:2] for one in again]
 
 
 def test_frames_go_to_pyvista_and_meshio(result: sg.Result) -> None:
@@ -143,6 +142,24 @@ def test_frames_are_drawn(result: sg.Result, tmp_path: Path) -> None:
     plotter = result[-1].plotter("contact_pressure", warp=2.0, off_screen=True)
     assert isinstance(plotter, pv.Plotter)
     plotter.close()
+
+
+def test_contacts_are_drawn_alone(result: sg.Result, tmp_path: Path) -> None:
+    pytest.importorskip("pyvista")
+    contact = result[-1].contact["floor"]
+    assert Path(contact.screenshot(tmp_path / "p.png")).read_bytes().startswith(b"\x89PNG")
+    contact.screenshot(tmp_path / "t.png", "traction", component=2)
+    plotter = contact.plotter("contact_gap", off_screen=True)
+    assert plotter.mesh.n_cells == 4 and plotter.mesh.active_scalars_name == "contact_gap"
+    plotter.close()
+
+
+def test_unknown_fields_are_named_before_a_plot(result: sg.Result) -> None:
+    pytest.importorskip("pyvista")
+    with pytest.raises(KeyError, match="did you mean 'contact_pressure'"):
+        result.plot("pressure")
+    with pytest.raises(KeyError, match="did you mean 'pressure'"):
+        result[-1].contact["floor"].plot("presure")
 
 
 def test_results_show_themselves(result: sg.Result) -> None:

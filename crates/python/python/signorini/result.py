@@ -27,6 +27,9 @@ Floats: TypeAlias = NDArray[np.float64]
 CLOSED = 0
 """Statuses above are closed: 1 stick, 2 slip, 3 tied."""
 
+PLOTTED = ("gap", "pressure", "pressure_max", "traction", "slip", "status", "area", "nodal_force")
+"""Arrays of a contact that a data set of PyVista has."""
+
 
 class ContactFrame:
     """One contact at one time. Arrays are over the nodes of its secondary side.
@@ -201,13 +204,83 @@ class ContactFrame:
             grid = Mesh(points, self.facets).to_pyvista()
         else:
             grid = pv.PolyData(np.array(points))
-        for name in ("gap", "pressure", "pressure_max", "traction", "slip", "status", "area", "nodal_force"):
+        for name in PLOTTED:
             grid.point_data[f"contact_{name}"] = np.asarray(getattr(self, name))
         return grid
+
+    def plotter(
+        self,
+        name: str = "pressure",
+        warp: float = 1.0,
+        *,
+        component: int | None = None,
+        off_screen: bool | None = None,
+        **options: Any,
+    ) -> Any:
+        """A plotter of PyVista with a quantity on the secondary side alone, which no body hides."""
+        need("pyvista", "ContactFrame.plot")
+        name = name.removeprefix("contact_")
+        if name not in PLOTTED:
+            raise KeyError(f"a contact has no {name!r} to plot{did_you_mean(name, PLOTTED)}")
+        is_flat = self._space != "3d"
+        width = {"line_width": 6, "show_edges": False} if is_flat else {}
+        scalars = f"contact_{name}"
+        return plotter_of(
+            self.to_pyvista(warp=warp), scalars, component, self.name, is_flat, off_screen, {**width, **options}
+        )
+
+    def plot(self, name: str = "pressure", warp: float = 1.0, *, component: int | None = None, **options: Any) -> Any:
+        """Shows a quantity on the secondary side, deformed `warp` times; further options are those of `add_mesh`.
+
+        `name`: gap, pressure, pressure_max, traction, slip, status, area or nodal_force.
+        """
+        return self.plotter(name, warp, component=component, **options).show()
+
+    show = plot
+
+    def screenshot(
+        self,
+        path: str | os.PathLike[str],
+        name: str = "pressure",
+        warp: float = 1.0,
+        *,
+        component: int | None = None,
+        **options: Any,
+    ) -> str:
+        """Writes a picture of a quantity on the secondary side and returns its path; see `plot`."""
+        plotter = self.plotter(name, warp, component=component, off_screen=True, **options)
+        plotter.screenshot(os.fspath(path))
+        plotter.close()
+        return os.fspath(path)
 
     def __repr__(self) -> str:
         force = ", ".join(f"{x:.6g}" for x in self.force)
         return f"<contact {self.name}: force ({force}), peak {self.peak:.6g}, {int(self.closed.sum())} of {len(self.nodes)} closed>"
+
+
+def plotter_of(
+    grid: Any,
+    name: str,
+    component: int | None,
+    title: str,
+    is_flat: bool,
+    off_screen: bool | None,
+    options: Mapping[str, Any],
+) -> Any:
+    """A plotter of PyVista with an array of a data set, or one of its components."""
+    pv = need("pyvista", "plot")
+    plotter = pv.Plotter(off_screen=without_window() if off_screen is None else off_screen)
+    if component is not None:
+        data = grid.point_data if name in grid.point_data else grid.cell_data
+        data[f"{name}[{component}]"] = np.array(data[name][:, component])
+        name = f"{name}[{component}]"
+    # an even number of labels leaves the middle of the bar to its title
+    bar = {"n_labels": 4}
+    plotter.add_mesh(grid, **{"scalars": name, "show_edges": True, "scalar_bar_args": bar, **options})
+    plotter.add_text(title, font_size=9)
+    if is_flat:
+        plotter.view_xy()
+    return plotter
 
 
 def apex(points: Floats, pressure: Floats, dim: int) -> Floats:
@@ -367,17 +440,13 @@ class Frame:
         **options: Any,
     ) -> Any:
         """A plotter of PyVista with a field on the deformed mesh; without a window where there is no display."""
-        pv = need("pyvista", "Frame.plot")
-        plotter = pv.Plotter(off_screen=without_window() if off_screen is None else off_screen)
+        need("pyvista", "Frame.plot")
+        known = [*self.names, *self.cell_names]
+        if name not in known:
+            raise KeyError(f"no field is called {name!r}{did_you_mean(name, known)}")
+        title = f"{self.step}  t = {self.time:g}"
         grid = self.to_pyvista(warp=warp)
-        if component is not None:
-            grid.point_data[f"{name}[{component}]"] = np.array(self[name][:, component])
-            name = f"{name}[{component}]"
-        plotter.add_mesh(grid, **{"scalars": name, "show_edges": True, **options})
-        plotter.add_text(f"{self.step}  t = {self.time:g}", font_size=9)
-        if self._mesh.dim == 2:
-            plotter.view_xy()
-        return plotter
+        return plotter_of(grid, name, component, title, self._mesh.dim == 2, off_screen, options)
 
     def plot(self, name: str = "von_mises", warp: float = 0.0, *, component: int | None = None, **options: Any) -> Any:
         """Shows a field on the mesh, deformed `warp` times; further options are those of PyVista's `add_mesh`."""
