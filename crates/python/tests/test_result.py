@@ -126,6 +126,8 @@ def test_the_report_is_a_page_of_the_saved_run(tmp_path: Path) -> None:
     other = pressed(depth=0.02).run(str(tmp_path / "other"), progress=False)
     compared = Path(other.report(tmp_path / "both.html", compare=tmp_path / "out")).read_text(encoding="utf-8")
     assert len(compared) > 0 and compared != page
+    again = Path(other.report(tmp_path / "again.html", compare=result)).read_text(encoding="utf-8")
+    assert again == compared
 
 
 def test_no_report_without_a_folder(tmp_path: Path) -> None:

@@ -702,23 +702,27 @@ class Result(Sequence[Frame]):
         """Writes a picture of the last frame; see `Frame.screenshot`."""
         return self[-1].screenshot(path, name, warp, **options)
 
-    def report(self, path: str | os.PathLike[str], *, compare: str | os.PathLike[str] | None = None) -> str:
+    def report(self, path: str | os.PathLike[str], *, compare: Result | str | os.PathLike[str] | None = None) -> str:
         """Writes the report as one HTML page that works offline, and returns its path.
 
-        The run must have been saved into a folder; `compare` is the folder of another run, whose histories are drawn
+        The run must have been saved into a folder; `compare` is another run or its folder, whose histories are drawn
         next to these.
 
         Raises `ValueError` for a result that is in memory only, or a folder without results.
         """
         from . import _native
 
-        if self.folder is None:
-            raise ValueError('this result is in memory only: save the run in a folder, as in case.run("case.out")')
-        other = None if compare is None else os.fspath(compare)
-        page = _native.report(self.folder, other)
+        other = compare._saved() if isinstance(compare, Result) else None if compare is None else os.fspath(compare)
+        page = _native.report(self._saved(), other)
         with open(path, "wb") as file:
             file.write(page)
         return os.fspath(path)
+
+    def _saved(self) -> str:
+        """The folder of a run that was saved."""
+        if self.folder is None:
+            raise ValueError('this result is in memory only: save the run in a folder, as in case.run("case.out")')
+        return self.folder
 
     def __repr__(self) -> str:
         where = f", {self.folder}" if self.folder else ""
