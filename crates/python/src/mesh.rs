@@ -4,7 +4,7 @@ use crate::diagnostics::{exception, list};
 use crate::view::{components, view};
 use crate::vtu::rows;
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use signorini::{Diagnostic, Diagnostics};
@@ -94,7 +94,10 @@ impl Mesh {
     /// Errors: `OSError` for a file that cannot be read, `InputError` for a damaged one.
     #[staticmethod]
     fn read<'py>(py: Python<'py>, path: &str) -> PyResult<(Self, Bound<'py, PyList>)> {
-        let bytes = std::fs::read(path)?;
+        let bytes = std::fs::read(path).map_err(|error| {
+            // of the class that fits the number, such as `FileNotFoundError`, with the name of the file
+            PyOSError::new_err((error.raw_os_error(), error.to_string(), path.to_owned()))
+        })?;
         let read = py.detach(|| read_mesh(path, &bytes));
         let (mesh, notes) = read.map_err(|error| {
             exception(

@@ -239,6 +239,14 @@ def test_a_failed_run_among_many_is_a_result() -> None:
         sg.run_many([wrong, pressed()], on_error="raise")
 
 
+def test_many_runs_need_a_list_of_cases() -> None:
+    case: Any = pressed()
+    wrongs: list[Any] = [case, {0.1: case}, [case, "block.toml"]]
+    for wrong in wrongs:
+        with pytest.raises(TypeError, match="takes a list of cases"):
+            sg.run_many(wrong)
+
+
 def test_many_runs_are_written_where_they_are_asked_to(tmp_path: Path) -> None:
     results = sg.run_many([pressed(), pressed(depth=0.02)], output=tmp_path / "study")
     assert [sg.open(tmp_path / "study" / name).ok for name in ("000", "001")] == [True, True]

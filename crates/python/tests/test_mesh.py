@@ -211,6 +211,18 @@ def test_gmsh_without_a_mesh_says_so(gmsh: Any) -> None:
         sg.Mesh.from_gmsh()
 
 
+def test_gmsh_before_its_start_says_so() -> None:
+    pytest.importorskip("gmsh")
+    with pytest.raises(ValueError, match="gmsh.initialize"):
+        sg.Mesh.from_gmsh()
+
+
+@native
+def test_a_missing_file_is_named() -> None:
+    with pytest.raises(FileNotFoundError, match="nothing.msh"):
+        sg.Mesh.read("nothing.msh")
+
+
 @native
 def test_a_grid_has_its_outer_faces_as_surfaces() -> None:
     x, y, z = [0.0, 1.0, 3.0], [0.0, 2.0], [-1.0, 0.0, 0.5, 1.0]

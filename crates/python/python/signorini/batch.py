@@ -39,7 +39,12 @@ def run_many(
 
     Ctrl-C stops all runs within an iteration, and is raised.
     """
+    from .case import Case
+
     cases = list(cases)
+    for index, case in enumerate(cases):
+        if not isinstance(case, Case):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise TypeError(f"run_many takes a list of cases, found {case!r} at index {index}")
     cores = os.cpu_count() or 1
     workers = max(1, min(len(cases) or 1, workers or cores))
     threads = threads or max(1, cores // workers)

@@ -262,6 +262,8 @@ class Mesh:
         As from a file: volumes are groups of cells, surfaces of a model in space are faces of its volumes.
         """
         gmsh: Any = need("gmsh", "Mesh.from_gmsh")
+        if not gmsh.isInitialized():
+            raise ValueError("gmsh has no model: call from_gmsh between gmsh.initialize() and gmsh.finalize()")
         model: Any = gmsh.model
         tags, coordinates, _ = model.mesh.getNodes()
         order = np.argsort(tags, kind="stable")
