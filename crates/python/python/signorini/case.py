@@ -322,8 +322,8 @@ class Case(k.CaseTable):
     ) -> k.Contact:
         """Adds a pair of surfaces that may touch.
 
-        `secondary`: the side that carries the points, the finer or more curved one. `primary`: the side they may not
-        pass through: a set, a surface of the case, "self", or an object such as `Plane(normal=(0, 0, 1))`.
+        `secondary`: the side that carries the points, the finer, softer or more curved one. `primary`: the side they
+        may not pass through: a set, a surface of the case, "self", or an object such as `Plane(normal=(0, 0, 1))`.
 
         TOML: `[[contact]]`.
         """

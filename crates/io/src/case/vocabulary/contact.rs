@@ -11,7 +11,7 @@ pub(super) static CONTACT: Table = Table {
         key(
             "secondary",
             Shape::Text,
-            "the side that carries the points: the finer or more curved one",
+            "the side that carries the points: the finer, softer or more curved one",
         )
         .required()
         .hints(&["slave", "source"]),
