@@ -169,6 +169,14 @@ def test_results_show_themselves(result: sg.Result) -> None:
     assert "hex8" in str(pressed().check())
 
 
+def test_results_show_their_warnings(result: sg.Result) -> None:
+    assert repr(result).endswith(", 1 warning>")
+    assert "warning S0414" in result._repr_html_()
+    case = pressed()
+    case.allow = ["S0414"]
+    assert "warning" not in repr(case.run(save=False))
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the memory of the process")
 def test_a_thousand_runs_leak_less_than_a_megabyte() -> None:
     mesh = box(1)

@@ -727,7 +727,9 @@ class Result(Sequence[Frame]):
     def __repr__(self) -> str:
         where = f", {self.folder}" if self.folder else ""
         why = f", {type(self.error).__name__}" if self.error is not None else ""
-        return f"<Result: {self.status}{why}, {len(self)} frames, {self.history.nrow} increments{where}>"
+        warnings = sum(one.severity == "warning" for one in self.diagnostics)
+        found = "" if not warnings else f", {warnings} warning{'s' if warnings > 1 else ''}"
+        return f"<Result: {self.status}{why}, {len(self)} frames, {self.history.nrow} increments{found}{where}>"
 
     def _repr_html_(self) -> str:
         from .notebook import thumbnail
@@ -753,6 +755,7 @@ class Result(Sequence[Frame]):
             (f"expect {one['what']}", f"{one['got']} ({one['value']}) {'✓' if one['ok'] else '✗'}")
             for one in self.expectations
         ]
+        rows += [(f"{one.severity} {one.code}", one.message) for one in self.diagnostics]
         rows += [("folder", self.folder)] if self.folder else []
         moved = self[-1]["displacement"] if len(self) else None
         return _html.document("Result", rows, picture=thumbnail(self.mesh, moved))
