@@ -40,6 +40,7 @@ def test_contacts_over_time() -> None:
     assert result.contact["a.b"].force.tolist() == [[1.0, 0.0, -2.0], [2.0, 0.0, -4.0]]
     assert result.contact["a.b"].gap_min.tolist() == [0.0, 1e-3]
     assert result.contact["a.b"]["gap_min"] is result.history["a.b.gap_min"]
+    assert repr(result.contact) == "<histories of a.b>"
     with pytest.raises(KeyError):
         _ = result.contact["b"]
     with pytest.raises(AttributeError, match="did you mean 'gap_min'"):

@@ -585,6 +585,9 @@ class _Histories(Mapping[str, ContactHistory]):
     def __len__(self) -> int:
         return len(self._all)
 
+    def __repr__(self) -> str:
+        return f"<histories of {', '.join(self._all)}>"
+
 
 class Result(Sequence[Frame]):
     """What a run computed: a sequence of frames, the undeformed one first, with the history of all increments.
