@@ -161,7 +161,7 @@ impl Diagnostic {
 /// // a fault of the input
 /// assert_eq!(found.exit_code(), Some(3));
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
 }
@@ -265,6 +265,13 @@ impl std::fmt::Display for Diagnostics {
     }
 }
 
+/// As `Display`, from a new line on: for `unwrap`, and for a `main` that returns them.
+impl std::fmt::Debug for Diagnostics {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "\n{self}")
+    }
+}
+
 impl std::error::Error for Diagnostics {}
 
 #[cfg(test)]
@@ -291,6 +298,12 @@ mod tests {
         all.push(model_error());
         all.silence(&["S0402", "S0211"]);
         assert_eq!(all.len(), 1, "errors cannot be silenced");
+    }
+
+    #[test]
+    fn a_program_that_returns_them_prints_what_the_command_prints() {
+        let all = Diagnostics::from(model_error());
+        assert_eq!(format!("{all:?}"), format!("\n{}", all.plain()));
     }
 
     #[test]
