@@ -11,9 +11,14 @@
 //! use signorini::{Reading, RunOptions, build, load, solve};
 //!
 //! let loaded = load("hertz.toml".as_ref(), &Reading::default())?;
+//! eprint!("{}", loaded.warnings);
 //! let model = build(loaded.case, loaded.mesh)?;
 //! let options = RunOptions::new(loaded.source);
 //! let finished = solve(model, &options, &mut ());
+//! eprint!("{}", finished.diagnostics);
+//! for (name, contact) in &finished.summary.contacts {
+//!     println!("{name}: force {:?}, largest pressure {}", contact.force, contact.pressure_max);
+//! }
 //! assert_eq!(finished.exit_code, 0);
 //! # Ok::<(), signorini::Diagnostics>(())
 //! ```
