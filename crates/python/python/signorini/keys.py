@@ -458,7 +458,10 @@ class Contact(Table):
         default="auto",
     )
     rule: One[ContactRule] = One(ContactRule, "Points of gauss-point, along each direction of a facet", "a table")
-    secondary: Key[str | None, str] = Key("The side that carries the points: the finer, softer or more curved one", "text")
+    secondary: Key[str | None, str] = Key(
+        "The side that carries the points: the finer, softer or more curved one",
+        "text",
+    )
     sliding: Key[Literal["auto", "finite", "increment", "small"], Literal["auto", "finite", "increment", "small"]] = Key(
         "How far points slide: any way; or each keeps the tangent plane it meets at the start of the increment, or first. auto: \"small\" in linear geometry, else \"finite\"",
         "`\"auto\"`, `\"finite\"`, `\"increment\"`, `\"small\"`",
