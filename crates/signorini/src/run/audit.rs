@@ -8,6 +8,7 @@ use signorini_io::checkpoint::{Archive, ArchiveError};
 use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, codes};
 use signorini_io::writers::json::{AuditEntry, AuditSummary, UnheldEntry};
 use signorini_mechanics::audit::{stopped, viscous};
+use signorini_mechanics::model::Unheld;
 use signorini_mechanics::system::{Check, Frame, Measured};
 use std::collections::BTreeMap;
 
@@ -137,8 +138,8 @@ impl Audit {
             );
             found.push(self.led_by_viscosity(message, &model.case));
         }
-        for (bodies, free) in &self.unheld {
-            found.push(not_stopped(bodies, *free, model));
+        if !self.unheld.is_empty() {
+            found.push(not_stopped(&self.unheld, model));
         }
         found
     }
@@ -371,25 +372,47 @@ fn labels<'a>(mesh: &'a Mesh, nodes: &'a [NodeId]) -> impl Iterator<Item = u64> 
     nodes.iter().filter_map(label)
 }
 
+/// Bodies that are listed one by one.
+const LISTED: usize = 5;
+
 /// The warning about bodies that moved freely.
-fn not_stopped(bodies: &str, free: Free, model: &Model) -> Diagnostic {
-    let word = if bodies.contains(" and ") {
-        "bodies"
-    } else {
-        "body"
+fn not_stopped(unheld: &BTreeMap<String, Free>, model: &Model) -> Diagnostic {
+    let course = |free: &Free| {
+        let (distance, time) = (number(free.distance), number(free.time));
+        format!("by {distance}, from time {time} on")
     };
-    let message = format!(
-        "{word} {bodies} moved freely, by {}, and nothing stopped it: its place is no result",
-        number(free.distance)
-    );
-    let mut one = Diagnostic::warning(&codes::NOT_STOPPED, message).note(format!(
-        "from time {} on; no contact force opposes the motion at its end",
-        number(free.time)
-    ));
-    for body in &model.held_by_contact {
-        one = one.note(format!("without contact {body} is free to {}", body.motion));
-    }
-    one.help(hold_it(first_step(&model.case)))
+    let mut all = unheld.iter();
+    let one = match (all.next(), all.len()) {
+        (Some((bodies, free)), 0) => {
+            let message = format!(
+                "body {bodies} moved freely, and nothing stopped it: its place is no result"
+            );
+            let own = |body: &&Unheld| {
+                let mut names = body.bodies.iter();
+                names.all(|name| bodies.contains(&format!("\"{name}\"")))
+            };
+            let motions = model.held_by_contact.iter().filter(own).take(LISTED);
+            let motions =
+                motions.map(|body| format!("without contact {body} is free to {}", body.motion));
+            let one = Diagnostic::warning(&codes::NOT_STOPPED, message);
+            let one = one.note(format!("it moved {}", course(free)));
+            motions.fold(one, Diagnostic::note)
+        }
+        (_, more) => {
+            let message = format!(
+                "{} bodies moved freely, and nothing stopped them: their places are no result",
+                more + 1
+            );
+            let moved = unheld.iter().take(LISTED);
+            let moved = moved.map(|(bodies, free)| format!("{bodies} moved {}", course(free)));
+            let rest = unheld.len().saturating_sub(LISTED);
+            let rest = (rest > 0).then(|| format!("and {rest} more"));
+            let one = Diagnostic::warning(&codes::NOT_STOPPED, message);
+            moved.chain(rest).fold(one, Diagnostic::note)
+        }
+    };
+    one.note("no contact force opposes the motion at its end")
+        .help(hold_it(first_step(&model.case)))
         .help("where a contact should stop it: add that pair; where friction should: give the contact friction")
 }
 

@@ -75,7 +75,8 @@ fn a_body_that_is_pushed_away() {
         code: 0,
         says: &[
             "warning[S0426]",
-            "body \"low\" moved freely, by 0.05, and nothing stopped it",
+            "body \"low\" moved freely, and nothing stopped it",
+            "it moved by 0.05, from time",
             "without contact body \"low\" is free to slide along y",
         ],
         help: "hold it by [[step.fix]]",
