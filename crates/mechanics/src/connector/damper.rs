@@ -7,22 +7,12 @@ use crate::system::{
 };
 use std::ops::Range;
 
-/// Bodies that viscous forces act on until contact holds them.
-pub struct Loose {
-    /// The unknowns that the forces act on, and the stiffness of each.
-    pub damped: Vec<(Dof, f64)>,
-    /// How they move.
-    pub course: Course,
-}
-
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
 /// Their work is reported.
 pub struct Damper {
     name: String,
     /// Unknowns, and k of each.
     dofs: Vec<(Dof, f64)>,
-    /// The values when the increment began.
-    first: Vec<f64>,
     /// u_n, and how far from there the unknowns move freely.
     start: Vec<f64>,
     drift: Vec<f64>,
@@ -37,7 +27,7 @@ pub struct Damper {
     renewals: u8,
     /// The factor on the forces since then.
     weakened: f64,
-    /// What they act on: ranges of `dofs`, and the course of the increment there.
+    /// The bodies that they hold: their ranges of `dofs`, and their course.
     courses: Vec<(Range<usize>, Course)>,
     work: f64,
 }
@@ -73,36 +63,37 @@ const CHUNK: usize = 1024;
 impl Damper {
     /// Viscous forces on these bodies, until contact holds them.
     #[must_use]
-    pub fn until_held(name: impl Into<String>, bodies: Vec<Loose>) -> Self {
+    pub fn until_held(name: impl Into<String>, bodies: Vec<Course>) -> Self {
         let strength = Strength::UntilHeld {
             acts: true,
             needed: false,
             boost: 1.0,
         };
-        Self::new(name, bodies, strength)
+        let mut dofs = Vec::new();
+        let mut courses = Vec::with_capacity(bodies.len());
+        for body in bodies {
+            let first = dofs.len();
+            dofs.extend(body.damped());
+            courses.push((first..dofs.len(), body));
+        }
+        Self::new(name, dofs, courses, strength)
     }
 
     /// Viscous forces on these unknowns, with the stiffness of each at strength 1, when they are asked for.
     #[must_use]
     pub fn when_asked(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
-        let all = Loose {
-            damped: dofs,
-            course: Course::new("", 0.0, Vec::new()),
-        };
-        Self::new(name, vec![all], Strength::Asked(0.0))
+        let all = (0..dofs.len(), Course::new("", 0.0, Vec::new()));
+        Self::new(name, dofs, vec![all], Strength::Asked(0.0))
     }
 
-    fn new(name: impl Into<String>, bodies: Vec<Loose>, strength: Strength) -> Self {
-        let mut dofs = Vec::new();
-        let mut courses = Vec::with_capacity(bodies.len());
-        for mut body in bodies {
-            let first = dofs.len();
-            dofs.append(&mut body.damped);
-            courses.push((first..dofs.len(), body.course));
-        }
+    fn new(
+        name: impl Into<String>,
+        dofs: Vec<(Dof, f64)>,
+        courses: Vec<(Range<usize>, Course)>,
+        strength: Strength,
+    ) -> Self {
         Self {
             name: name.into(),
-            first: Vec::new(),
             start: vec![0.0; dofs.len()],
             drift: Vec::new(),
             dofs,
@@ -164,15 +155,6 @@ impl Damper {
         Some(force)
     }
 
-    /// Adds the work that the forces would have done, had they acted from the beginning to the end of the increment.
-    fn conclude(&mut self, state: &State) {
-        for (range, course) in &mut self.courses {
-            let dofs = self.dofs.get(range.clone()).unwrap_or_default();
-            let starts = self.first.get(range.clone()).unwrap_or_default();
-            course.conclude(work(dofs, starts, state));
-        }
-    }
-
     /// Adds the work since the last renewal to that of the increment, body by body.
     fn spend(&mut self, state: &State) {
         let strength = self.strength();
@@ -182,18 +164,14 @@ impl Damper {
         for (range, course) in &mut self.courses {
             let dofs = self.dofs.get(range.clone()).unwrap_or_default();
             let starts = self.start.get(range.clone()).unwrap_or_default();
-            course.spend(strength * work(dofs, starts, state));
+            let of_dof = |(&(dof, stiffness), &start): (&(Dof, f64), &f64)| {
+                let moved = value(state, dof) - start;
+                stiffness * moved * moved
+            };
+            let work: f64 = dofs.iter().zip(starts).map(of_dof).sum();
+            course.spend(strength * work);
         }
     }
-}
-
-/// `Σ k (u − u_0)²`.
-fn work(dofs: &[(Dof, f64)], starts: &[f64], state: &State) -> f64 {
-    let of_dof = |(&(dof, stiffness), &start): (&(Dof, f64), &f64)| {
-        let moved = value(state, dof) - start;
-        stiffness * moved * moved
-    };
-    dofs.iter().zip(starts).map(of_dof).sum()
 }
 
 fn value(state: &State, dof: Dof) -> f64 {
@@ -226,11 +204,6 @@ impl Term for Damper {
         self.weakened = 1.0;
         for (_, course) in &mut self.courses {
             course.begin(from);
-        }
-        if !matches!(self.strength, Strength::Asked(_)) {
-            self.first.clear();
-            let values = self.dofs.iter().map(|&(dof, _)| value(from, dof));
-            self.first.extend(values);
         }
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             let drift = self.drift.get(dof as usize).copied();
@@ -374,12 +347,8 @@ impl Viscous for Damper {
 impl Stored for Damper {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.spend(state);
-        self.conclude(state);
-        self.work += self
-            .courses
-            .iter()
-            .map(|(_, course)| course.work())
-            .sum::<f64>();
+        let works = self.courses.iter().map(|(_, course)| course.work());
+        self.work += works.sum::<f64>();
         if let Strength::UntilHeld { needed, boost, .. } = &mut self.strength {
             (*needed, *boost) = (false, 1.0);
         }

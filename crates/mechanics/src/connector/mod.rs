@@ -73,7 +73,7 @@ mod springs;
 mod tests;
 mod twist;
 
-pub use damper::{Damper, Loose};
+pub use damper::Damper;
 pub use distance::{Distance, DistanceParts};
 pub use distributing::{Distributing, DistributingParts};
 pub use line::Line;

@@ -1,5 +1,5 @@
 use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
-use crate::connector::{Damper, Loose};
+use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
 use crate::system::{Course, Dof, Idealisation, NO_DOF, NodalField, Term};
@@ -124,60 +124,38 @@ impl Context<'_> {
     pub(super) fn holds(&self, bodies: &[BodyPart], free: &[Unheld]) -> Option<Damper> {
         let ndim = self.layout.ndim();
         let part = |points: &[Vec3]| DAMPING.min(OF_BENDING * bending(points, ndim));
-        let loose = tied(free).into_iter().map(|names| {
-            let named = |name: &str| names.contains(name);
-            Loose {
-                damped: self.viscous(bodies, &named, &part),
-                course: self.course(bodies, &names),
-            }
+        let courses = tied(free).into_iter().map(|names| {
+            let (unknowns, size) = self.viscous(bodies, &|name| names.contains(name), &part);
+            let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+            Course::new(names.join(" and "), size, unknowns)
         });
-        let loose: Vec<Loose> = loose.filter(|one| !one.damped.is_empty()).collect();
-        (!loose.is_empty()).then(|| Damper::until_held("free bodies", loose))
-    }
-
-    /// The unknowns of the motion of bodies and carriers with these names.
-    fn course(&self, bodies: &[BodyPart], names: &BTreeSet<&str>) -> Course {
-        let named = bodies.iter().filter(|body| names.contains(&*body.name));
-        let nodes: BTreeSet<NodeId> = named
-            .flat_map(|body| &body.cells)
-            .flat_map(|&cell| self.mesh.cell(cell).iter().copied())
+        let courses: Vec<Course> = courses
+            .filter(|course| course.damped().next().is_some())
             .collect();
-        let points = nodes.iter().filter_map(|&n| self.reference.get(n as usize));
-        let size = self.extent(self.space, points.copied());
-        let of_node = |&n: &NodeId| (0..self.layout.ndim()).map(move |axis| (n, axis));
-        let of_nodes = nodes.iter().flat_map(of_node);
-        let mut motion: Vec<Dof> = of_nodes
-            .map(|(n, axis)| self.layout.node(n, axis))
-            .collect();
-        let carriers = (0..).zip(self.carriers);
-        for (number, _) in carriers.filter(|(_, carrier)| names.contains(&*carrier.name)) {
-            for axis in 0..3 {
-                motion.push(self.layout.translation(number, axis));
-                motion.push(self.layout.rotation(number, axis));
-            }
-        }
-        motion.retain(|dof| *dof != NO_DOF);
-        let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-        Course::new(names.join(" and "), size, motion)
+        (!courses.is_empty()).then(|| Damper::until_held("free bodies", courses))
     }
 
     /// What slows all bodies where the solver asks for it.
     pub(super) fn brake(&self, bodies: &[BodyPart]) -> Damper {
-        Damper::when_asked("stabilization", self.viscous(bodies, &|_| true, &|_| 1.0))
+        let (mut unknowns, _) = self.viscous(bodies, &|_| true, &|_| 1.0);
+        unknowns.retain(|(_, stiffness)| *stiffness > 0.0);
+        Damper::when_asked("stabilization", unknowns)
     }
 
     /// The unknowns of bodies and carriers, and the stiffness at each: a part of the modulus times the size of a body,
-    /// the same on each of its nodes. The part follows from where these are.
+    /// the same on each of its nodes, 0 where an unknown follows from others. The part follows from where the nodes are.
+    /// Besides, the largest of these sizes.
     fn viscous(
         &self,
         bodies: &[BodyPart],
         named: &dyn Fn(&str) -> bool,
         part: &dyn Fn(&[Vec3]) -> f64,
-    ) -> Vec<(Dof, f64)> {
+    ) -> (Vec<(Dof, f64)>, f64) {
         let at = |n: &NodeId| self.reference.get(*n as usize).copied().unwrap_or_default();
         let softest = self.modulus.iter().flatten().copied();
         let softest = softest.reduce(f64::min).unwrap_or(1.0);
         let mut dofs: Vec<(Dof, f64)> = Vec::new();
+        let mut largest = 0.0_f64;
         for (number, (body, modulus)) in bodies.iter().zip(self.modulus).enumerate() {
             let (Some(modulus), true) = (modulus, named(&body.name)) else {
                 continue;
@@ -193,8 +171,9 @@ impl Context<'_> {
             let of_node = |&n: &NodeId| (0..self.layout.ndim()).map(move |axis| (n, axis));
             let of_nodes = nodes.iter().flat_map(of_node);
             let own = of_nodes.map(|(n, axis)| self.layout.node(n, axis));
-            let own = own.filter(|&d| !self.elimination.depends(d, &self.layout));
-            dofs.extend(own.map(|d| (d, stiffness)));
+            let follows = |dof: Dof| self.elimination.depends(dof, &self.layout);
+            dofs.extend(own.map(|d| (d, if follows(d) { 0.0 } else { stiffness })));
+            largest = largest.max(extent);
         }
         for (number, carrier) in (0..).zip(self.carriers) {
             if !named(&carrier.name) {
@@ -207,8 +186,9 @@ impl Context<'_> {
                 dofs.push((self.layout.rotation(number, axis), stiffness * size * size));
             }
             dofs.retain(|d| d.0 != NO_DOF);
+            largest = largest.max(size);
         }
-        dofs
+        (dofs, largest)
     }
 
     /// The size of a body: the diagonal of its box in space, the extent across it in the plane.

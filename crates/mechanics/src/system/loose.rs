@@ -24,14 +24,12 @@ pub struct Course {
     bodies: Arc<str>,
     /// Their size, with which motions are compared.
     size: f64,
-    /// The unknowns of their motion, those included that follow from others.
-    motion: Vec<Dof>,
+    /// The unknowns of their motion, and the stiffness of viscous forces on each; 0 where one follows from others.
+    motion: Vec<(Dof, f64)>,
     /// The value of each when the increment began; empty before the first.
     start: Vec<f64>,
     /// The work of viscous forces on them in the increment.
     work: f64,
-    /// What it had been, had they acted all the time.
-    work_throughout: f64,
 }
 
 /// Motions below this part of the size of a body are let pass: they may be rounding.
@@ -40,33 +38,35 @@ const NOTICED: f64 = 1e-6;
 impl Course {
     /// These bodies, before the first increment.
     #[must_use]
-    pub fn new(bodies: impl Into<Arc<str>>, size: f64, motion: Vec<Dof>) -> Self {
+    pub fn new(bodies: impl Into<Arc<str>>, size: f64, motion: Vec<(Dof, f64)>) -> Self {
         Self {
             bodies: bodies.into(),
             size,
             motion,
             start: Vec::new(),
             work: 0.0,
-            work_throughout: 0.0,
         }
+    }
+
+    /// The unknowns on which viscous forces act, and the stiffness of each.
+    pub fn damped(&self) -> impl Iterator<Item = (Dof, f64)> {
+        self.motion
+            .iter()
+            .copied()
+            .filter(|(_, stiffness)| *stiffness > 0.0)
     }
 
     /// An increment begins at this state.
     pub fn begin(&mut self, from: &State) {
-        (self.work, self.work_throughout) = (0.0, 0.0);
+        self.work = 0.0;
         self.start.clear();
-        let values = self.motion.iter().map(|&dof| value(from, dof));
+        let values = self.motion.iter().map(|&(dof, _)| value(from, dof));
         self.start.extend(values);
     }
 
     /// Viscous forces on the bodies have done this work.
     pub fn spend(&mut self, work: f64) {
         self.work += work;
-    }
-
-    /// The increment is done; viscous forces that had acted all the time would have done this work.
-    pub fn conclude(&mut self, work_throughout: f64) {
-        self.work_throughout = work_throughout;
     }
 
     /// The work of viscous forces on them in the increment so far.
@@ -82,11 +82,12 @@ impl Course {
             bodies: self.bodies.clone(),
             distance: 0.0,
             work: self.work,
-            work_throughout: self.work_throughout,
+            work_throughout: 0.0,
             opposed: 0.0,
         };
-        for (&dof, start) in self.motion.iter().zip(&self.start) {
+        for (&(dof, stiffness), start) in self.motion.iter().zip(&self.start) {
             let moved = value(state, dof) - start;
+            found.work_throughout += stiffness * moved * moved;
             let (Some(name), true) = (layout.name(dof), moved != 0.0) else {
                 continue;
             };
