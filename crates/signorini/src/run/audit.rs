@@ -1,7 +1,7 @@
 //! What the audits of accepted states found in the course of a run, and how it is reported.
 
 use super::remedies::MOTION_INSTEAD;
-use crate::setup::{Model, first_step, hold_it};
+use crate::setup::{LISTED, Model, and_so_on, first_step, hold_it};
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_io::case::{Case, Enforcement};
 use signorini_io::checkpoint::{Archive, ArchiveError};
@@ -372,9 +372,6 @@ fn labels<'a>(mesh: &'a Mesh, nodes: &'a [NodeId]) -> impl Iterator<Item = u64> 
     nodes.iter().filter_map(label)
 }
 
-/// Bodies that are listed one by one.
-const LISTED: usize = 5;
-
 /// The warning about bodies that moved freely.
 fn not_stopped(unheld: &BTreeMap<String, Free>, model: &Model) -> Diagnostic {
     let course = |free: &Free| {
@@ -405,10 +402,8 @@ fn not_stopped(unheld: &BTreeMap<String, Free>, model: &Model) -> Diagnostic {
             );
             let moved = unheld.iter().take(LISTED);
             let moved = moved.map(|(bodies, free)| format!("{bodies} moved {}", course(free)));
-            let rest = unheld.len().saturating_sub(LISTED);
-            let rest = (rest > 0).then(|| format!("and {rest} more"));
             let one = Diagnostic::warning(&codes::NOT_STOPPED, message);
-            moved.chain(rest).fold(one, Diagnostic::note)
+            and_so_on(moved.fold(one, Diagnostic::note), unheld.len())
         }
     };
     one.note("no contact force opposes the motion at its end")

@@ -440,6 +440,10 @@ impl Run<'_, '_> {
 
     /// Passes a finding to the files and the listener, and adds it to the summary.
     fn report(&mut self, one: Diagnostic, found: &mut Diagnostics) {
+        let one = match deck::is_of_deck(&self.model.case) {
+            true => deck::one_in_words(one),
+            false => one,
+        };
         self.recorder.tell(&event_of(&one), Detail::Finding(&one));
         found.push(one);
     }
@@ -453,13 +457,7 @@ impl Run<'_, '_> {
         let allowed: Vec<&str> = self.model.case.allow.iter().map(String::as_str).collect();
         findings.silence(&allowed);
         let any = !findings.is_empty();
-        let is_of_deck = deck::is_of_deck(&self.model.case);
         for one in findings {
-            let one = if is_of_deck {
-                deck::one_in_words(one)
-            } else {
-                one
-            };
             self.report(one, found);
         }
         any

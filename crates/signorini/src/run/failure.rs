@@ -5,7 +5,6 @@ use crate::setup::{Model, first_step, hold};
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_io::case::{Case, Contact};
-use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_linear::LinearError;
 use signorini_mechanics::solve::{Failure, RunError};
@@ -37,14 +36,6 @@ pub fn at_start(error: &TermError) -> Diagnostics {
 
 /// The message for a run that failed.
 pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
-    let one = message_of_case(error, model, saved);
-    match deck::is_of_deck(&model.case) {
-        true => deck::one_in_words(one),
-        false => one,
-    }
-}
-
-fn message_of_case(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
     if let RunError::NotConverged { cause, .. } = error
         && let Some(one) = no_memory(cause, saved)
     {

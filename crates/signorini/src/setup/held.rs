@@ -10,7 +10,7 @@ use signorini_mechanics::model::Unheld;
 use std::collections::BTreeMap;
 
 /// Bodies, and contacts, that are listed one by one.
-pub(super) const LISTED: usize = 5;
+pub(crate) const LISTED: usize = 5;
 
 /// One message for all bodies that only contact holds; `None` where there are none. `stabilized` says whether a viscous force holds
 /// them until contact does.
@@ -104,7 +104,7 @@ pub(crate) fn first_step(case: &Case) -> &str {
 }
 
 /// Says how many more there are than were listed.
-pub(super) fn and_so_on(message: Diagnostic, n: usize) -> Diagnostic {
+pub(crate) fn and_so_on(message: Diagnostic, n: usize) -> Diagnostic {
     match n.saturating_sub(LISTED) {
         0 => message,
         more => message.note(format!("and {more} more")),

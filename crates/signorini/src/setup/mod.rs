@@ -28,7 +28,7 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use held::{first_step, hold, hold_it};
+pub(crate) use held::{LISTED, and_so_on, first_step, hold, hold_it};
 use idealisation::{idealisation, own_idealisation};
 pub use info::{ContactInfo, ReferenceInfo};
 pub use mesh::{judge_mesh_of, read_mesh_of, read_surfaces_of};
