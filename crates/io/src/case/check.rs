@@ -330,13 +330,12 @@ impl Checker<'_> {
                     {
                         one.help(format!("write {} = [\"{word}\"]", key.name))
                     }
-                    Shape::Either(shapes) => match key_inside(shapes, word) {
+                    shape => match key_inside(shape, word) {
                         Some(value) => {
                             one.help(format!("write {} = {{ {word} = {value} }}", key.name))
                         }
                         None => one.note(format!("it takes: {}", listed(known()))),
                     },
-                    _ => one.note(format!("it takes: {}", listed(known()))),
                 });
             }
         }
@@ -626,7 +625,10 @@ pub(super) fn id(value: &Spanned<DeValue<'_>>) -> Option<u64> {
 }
 
 /// What to write for a key of that name in a table that may stand in place of a word.
-fn key_inside(shapes: &[Shape], name: &str) -> Option<&'static str> {
+fn key_inside(shape: &Shape, name: &str) -> Option<&'static str> {
+    let Shape::Either(shapes) = shape else {
+        return None;
+    };
     let tables = shapes.iter().filter_map(|shape| match shape {
         Shape::Table(table) => Some(table),
         _ => None,
