@@ -248,10 +248,7 @@ class ContactFrame:
         **options: Any,
     ) -> str:
         """Writes a picture of a quantity on the secondary side and returns its path; see `plot`."""
-        plotter = self.plotter(name, warp, component=component, off_screen=True, **options)
-        plotter.screenshot(os.fspath(path))
-        plotter.close()
-        return os.fspath(path)
+        return picture_of(self.plotter(name, warp, component=component, off_screen=True, **options), path)
 
     def __repr__(self) -> str:
         force = ", ".join(f"{x:.6g}" for x in self.force)
@@ -281,6 +278,13 @@ def plotter_of(
     if is_flat:
         plotter.view_xy()
     return plotter
+
+
+def picture_of(plotter: Any, path: str | os.PathLike[str]) -> str:
+    """Writes what a plotter shows, closes it and returns the path."""
+    plotter.screenshot(os.fspath(path))
+    plotter.close()
+    return os.fspath(path)
 
 
 def apex(points: Floats, pressure: Floats, dim: int) -> Floats:
@@ -464,10 +468,7 @@ class Frame:
         **options: Any,
     ) -> str:
         """Writes a picture of a field and returns its path."""
-        plotter = self.plotter(name, warp, component=component, off_screen=True, **options)
-        plotter.screenshot(os.fspath(path))
-        plotter.close()
-        return os.fspath(path)
+        return picture_of(self.plotter(name, warp, component=component, off_screen=True, **options), path)
 
     def __repr__(self) -> str:
         place = f"{self.step}, increment {self.increment}, " if self.step else ""
