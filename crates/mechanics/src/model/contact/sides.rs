@@ -80,7 +80,7 @@ impl Source<'_> {
         let at_nodes = at_nodes.map_err(|source| pass.surface_error(source))?;
         let method = match &part.method {
             Method::Auto if at_nodes => Method::NodeToSegment,
-            _ => self.method(part, pass.secondary.as_ref()),
+            _ => self.method(part, &pass),
         };
         let law = law(part, method.takes_multipliers() || at_nodes)?;
         pass.admits(law.multiplier())?;
@@ -104,8 +104,9 @@ impl Source<'_> {
     /// Mortar passes on any even pressure and needs no number, but compares two surfaces of deformable solids, with
     /// multipliers at nodes that can follow them. With a penalty, points are cheaper and no worse; nodes alone cannot carry
     /// an even pressure on some facets. Multipliers at points inside facets are more than there are nodes to follow them.
-    /// Against a rigid surface without facets, nodes take multipliers where they can follow, see [`rigid`].
-    fn method(&self, part: &ContactPart, secondary: Option<&Facets>) -> Method {
+    /// Against a rigid surface without facets, nodes take multipliers where they can follow, see [`rigid`]. Nodes that both
+    /// sides have could follow no multiplier.
+    fn method(&self, part: &ContactPart, pass: &Pass<'_>) -> Method {
         let penalty = matches!(part.enforcement, Enforcement::Penalty(_));
         let open = !penalty && !part.enforcement.is_curve();
         let exact = open && !matches!(part.enforcement, Enforcement::Auto);
@@ -114,7 +115,9 @@ impl Source<'_> {
                 normals: Normals::default(),
                 pairs: PairOrder::default(),
             },
-            (Method::Auto, PrimaryPart::Faces(_)) if open && self.suits_mortar(part, secondary) => {
+            (Method::Auto, PrimaryPart::Faces(_))
+                if open && pass.shared.is_empty() && self.suits_mortar(part, pass) =>
+            {
                 Method::Mortar(discretization::mortar::Form {
                     joined: part.tie.is_some(),
                     ..Default::default()
@@ -137,7 +140,7 @@ impl Source<'_> {
     }
 
     /// Whether multipliers of mortar contact can be had for what a contact asks for.
-    fn suits_mortar(&self, part: &ContactPart, secondary: Option<&Facets>) -> bool {
+    fn suits_mortar(&self, part: &ContactPart, pass: &Pass<'_>) -> bool {
         let plain = !part.two_pass
             && part.area == AreaPart::Reference
             && part.measure != Some(Measure::Node);
@@ -151,7 +154,7 @@ impl Source<'_> {
         let suits = |facets: &Facets| {
             follows(facets) && self.spaces.alike(facets).is_some() && no_dual(facets).is_none()
         };
-        plain && secondary.is_some_and(suits)
+        plain && pass.secondary.as_ref().is_some_and(suits)
     }
 
     /// Whether the nodal forces of an even pressure on the secondary side are not all positive: nodes alone cannot carry

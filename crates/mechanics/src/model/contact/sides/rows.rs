@@ -39,6 +39,8 @@ pub(super) struct Pass<'a> {
     pub primary: Option<Facets>,
     /// Whether both sides are one surface.
     same: bool,
+    /// Nodes that both sides have, sorted: where two surfaces of one body meet. They cannot part, and are not compared.
+    pub shared: Vec<NodeId>,
 }
 
 /// Rows and the areas that they stand for.
@@ -74,13 +76,18 @@ impl<'a> Pass<'a> {
             PrimaryPart::Itself => secondary.clone(),
             PrimaryPart::Nodes(_) | PrimaryPart::Surface(_) => None,
         };
+        let same = matches!(part.primary, PrimaryPart::Itself);
+        let of_primary = primary.as_ref().filter(|_| !same);
+        let of_primary = of_primary.map(Facets::all_nodes).unwrap_or_default();
+        let is_shared = |n: &&NodeId| of_primary.binary_search(n).is_ok();
         let pass = Self {
+            shared: points.iter().filter(is_shared).copied().collect(),
             source,
             part,
             points,
             secondary,
             primary,
-            same: matches!(part.primary, PrimaryPart::Itself),
+            same,
         };
         if part.area == AreaPart::Opposite && pass.primary.is_none() {
             return Err(pass.unsuited(
@@ -91,7 +98,7 @@ impl<'a> Pass<'a> {
         Ok(pass)
     }
 
-    /// Refuses sides that the multipliers of a law cannot hold, and sides that share nodes.
+    /// Refuses sides that the multipliers of a law cannot hold, and sides that share facets.
     pub fn admits(&self, multiplier: Multiplier) -> Result<(), ModelError> {
         if self.same && multiplier != Multiplier::None {
             return Err(self.unsuited(
@@ -105,7 +112,7 @@ impl<'a> Pass<'a> {
                 "secondary = \"a set of faces\"",
             ));
         }
-        match self.primary.as_ref().filter(|_| !self.same) {
+        match self.primary.as_ref().filter(|_| !self.shared.is_empty()) {
             Some(primary) => self.not_glued(primary),
             None => Ok(()),
         }
@@ -247,6 +254,12 @@ impl<'a> Pass<'a> {
                 "method = \"gauss-point\"",
             ));
         }
+        if !self.shared.is_empty() {
+            return Err(self.unsuited(
+                "mortar contact needs two sides without common nodes",
+                "method = \"gauss-point\"",
+            ));
+        }
         if let Some((element, label)) = no_dual(facets).map(|f| self.named(facets, f)) {
             return Err(ModelError::NoDualBasis {
                 contact: self.part.name.clone(),
@@ -267,20 +280,21 @@ impl<'a> Pass<'a> {
 
     fn at_nodes(&self, closest: Closest, exact: bool) -> Result<Rows, ModelError> {
         let of_auto = exact && matches!(self.part.method, Method::Auto);
+        let compared = self.compared();
         let blended = self.secondary.as_ref().filter(|_| of_auto);
-        let blended = blended.map(|facets| self.source.blended(self.part, facets, &self.points));
+        let blended = blended.map(|facets| self.source.blended(self.part, facets, &compared));
         let (mut at_nodes, area) = match blended.transpose()?.flatten() {
             Some(blended) => blended,
             None => (
-                PointToSegment::at_nodes(&self.points),
-                self.nodal_areas(&self.points)?,
+                PointToSegment::at_nodes(&compared),
+                self.nodal_areas(&compared)?,
             ),
         };
         at_nodes.closest = closest;
         at_nodes.sliding = self.part.sliding;
         Ok(Rows {
             area,
-            areas: self.present_areas(&self.points),
+            areas: self.present_areas(&compared),
             discretization: Box::new(at_nodes),
         })
     }
@@ -354,18 +368,40 @@ impl<'a> Pass<'a> {
         outer
     }
 
+    /// Refuses sides that have a facet in common, or nothing but nodes of the other side: nothing there could part. Nodes
+    /// that they share beyond that are where two surfaces of one body meet.
     fn not_glued(&self, primary: &Facets) -> Result<(), ModelError> {
-        let of_primary = primary.all_nodes();
-        let is_shared = |n: &&NodeId| of_primary.binary_search(n).is_ok();
-        let shared: Vec<NodeId> = self.points.iter().filter(is_shared).copied().collect();
-        match shared.first() {
-            Some(&node) => Err(ModelError::Glued {
-                contact: self.part.name.clone(),
-                count: shared.len(),
-                node: label(self.source.mesh, node),
-            }),
-            None => Ok(()),
+        let is_shared = |n: &NodeId| self.shared.binary_search(n).is_ok();
+        let inside = |facets: &Facets| {
+            let numbers = 0..facets.nfacet() as u32;
+            let sorted = |facet: u32| {
+                let mut nodes = facets.nodes(facet).to_vec();
+                nodes.sort_unstable();
+                nodes
+            };
+            let whole = numbers.filter(|&f| facets.nodes(f).iter().all(is_shared));
+            whole.map(sorted).collect::<BTreeSet<Vec<NodeId>>>()
+        };
+        let common = match &self.secondary {
+            Some(secondary) => !inside(secondary).is_disjoint(&inside(primary)),
+            None => false,
+        };
+        match self.shared.first() {
+            Some(&node) if common || self.shared.len() == self.points.len() => {
+                Err(ModelError::Glued {
+                    contact: self.part.name.clone(),
+                    count: self.shared.len(),
+                    node: label(self.source.mesh, node),
+                })
+            }
+            _ => Ok(()),
         }
+    }
+
+    /// The nodes that are compared with the primary side.
+    fn compared(&self) -> Vec<NodeId> {
+        let is_own = |n: &&NodeId| self.shared.binary_search(n).is_err();
+        self.points.iter().filter(is_own).copied().collect()
     }
 
     /// Secondary and primary node of each pair.
