@@ -157,10 +157,8 @@ pub enum ModelError {
         /// The direction.
         component: char,
     },
-    /// A support, motion or load on a node of a rigid body.
-    #[error(
-        "node {node} belongs to the rigid body \"{body}\": support, move or load the body instead"
-    )]
+    /// A support or motion of a node of a rigid body.
+    #[error("node {node} belongs to the rigid body \"{body}\": support or move the body instead")]
     OnRigidNode {
         /// The node, as numbered in the input.
         node: u64,

@@ -98,7 +98,6 @@ impl Context<'_> {
             }
             Place::Nodes(nodes) => {
                 for &node in nodes {
-                    self.on_rigid(node)?;
                     if self.is_loose(node) {
                         let node = label(self.mesh, node);
                         return Err(named(LoadError::Loose { node }));
@@ -176,7 +175,7 @@ impl Context<'_> {
             let held = |dof: Dof| step.prescriptions.iter().any(|p| p.dof == dof);
             let rotations = (0..3).map(|c| layout.rotation(carrier, c));
             let free = rotations.filter(|&dof| dof != NO_DOF && !held(dof)).count();
-            free > 1 && turns.iter().any(|(dof, _)| !held(*dof))
+            step.nonlinear && free > 1 && turns.iter().any(|(dof, _)| !held(*dof))
         });
         let swivels = swivels.collect();
         let load = self.dead(name, &acting(along.chain(about)), schedule)?;

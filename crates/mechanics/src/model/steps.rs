@@ -48,7 +48,7 @@ pub(super) fn in_whole(motions: &[[Prescribed; 3]], ndim: usize) -> Vec<bool> {
 }
 
 impl Context<'_> {
-    pub(super) fn on_rigid(&self, node: NodeId) -> Result<(), ModelError> {
+    fn on_rigid(&self, node: NodeId) -> Result<(), ModelError> {
         let body = self.elimination.body_of(node);
         match body.filter(|_| self.ties.rigid.contains(&node)) {
             None => Ok(()),

@@ -306,6 +306,7 @@ impl Stepper {
             duration: step.duration,
             nonlinear: step.nonlinear,
         };
+        self.state.is_small = !step.nonlinear;
         let phase = Phase::of_step(context);
         for term in &mut system.terms {
             term.begin(&phase, &self.state)?;

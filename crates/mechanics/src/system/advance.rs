@@ -10,6 +10,7 @@ impl State {
         Self {
             time: 0.0,
             u: vec![0.0; layout.ndof()],
+            is_small: false,
             poses: elimination.initial_poses(),
             x: reference.to_vec(),
         }
@@ -27,6 +28,7 @@ impl State {
         elimination: &Elimination,
     ) {
         self.u.clone_from(&base.u);
+        self.is_small = base.is_small;
         self.poses.clone_from(&base.poses);
         for (u, d) in self.u.iter_mut().zip(du) {
             *u += alpha * d;

@@ -47,6 +47,9 @@ pub struct Elimination {
     leader: Vec<[RigidId; 3]>,
     /// Single directions that follow a carrier, besides the nodes of `bodies`, with their arms at the start; sorted.
     coupled: Vec<(Turn, Vec3)>,
+    /// Nodes in relations that turn with a carrier and do not follow it along any axis, with their arms at the start;
+    /// sorted.
+    guided: Vec<((RigidId, NodeId), Vec3)>,
     /// Relation of each raw dof, or `NONE`; empty where there is none.
     relation_of: Vec<u32>,
     relations: Vec<Relation>,
@@ -182,6 +185,25 @@ impl Elimination {
         self.coupled.sort_unstable_by_key(|c| c.0);
     }
 
+    /// Takes the arms of nodes whose relations have turns of a carrier that they do not follow.
+    pub fn guide(
+        &mut self,
+        reference: &[Vec3],
+        nodes: impl Iterator<Item = NodeId>,
+        carrier: RigidId,
+    ) {
+        let Some(body) = self.bodies.get(carrier as usize) else {
+            return;
+        };
+        let arm = |node: NodeId| {
+            let start = reference.get(node as usize)?;
+            Some(((carrier, node), *start - body.reference))
+        };
+        self.guided.extend(nodes.filter_map(arm));
+        self.guided.sort_unstable_by_key(|one| one.0);
+        self.guided.dedup_by_key(|one| one.0);
+    }
+
     /// Says that a carrier moves nodes of deformable bodies: its prescribed motion is felt by elements.
     pub fn pull(&mut self, carrier: RigidId) {
         if let Some(pulls) = self.pulls.get_mut(carrier as usize) {
@@ -290,7 +312,7 @@ impl Elimination {
         self.linear(dof, 1.0, out);
     }
 
-    /// The increment of a dof that follows no carrier.
+    /// The increment of a dof that follows no carrier, or its value, where `du` has the values of all.
     pub(super) fn increment(&self, dof: Dof, du: &[f64]) -> f64 {
         let mut value = 0.0;
         if dof != NO_DOF {
@@ -305,8 +327,9 @@ impl Elimination {
         for relation in &self.relations {
             let linear = relation.terms.iter().map(|&(d, c)| c * at(&state.u, d));
             let turns = relation.turns.iter();
-            let turned =
-                turns.map(|&(t, c)| c * self.turned(state, reference, t.carrier, t.node)[t.axis]);
+            let turned = turns.map(|&(t, c)| {
+                c * self.turned(state, layout, reference, t.carrier, t.node)[t.axis]
+            });
             let value = linear.sum::<f64>() + turned.sum::<f64>();
             put(&mut state.u, relation.dof, value);
         }
@@ -319,7 +342,7 @@ impl Elimination {
         for (id, body) in self.bodies.iter().enumerate() {
             let id = id as RigidId;
             for &node in &body.nodes {
-                let turned = self.turned(state, reference, id, node);
+                let turned = self.turned(state, layout, reference, id, node);
                 for axis in 0..layout.ndim() {
                     let moved = at(&state.u, layout.translation(id, axis));
                     put(&mut state.u, layout.node(node, axis), moved + turned[axis]);
@@ -327,7 +350,12 @@ impl Elimination {
             }
         }
         for (turn, _) in &self.coupled {
-            let turned = self.turned(state, reference, turn.carrier, turn.node)[turn.axis];
+            let Turn {
+                node,
+                axis,
+                carrier,
+            } = *turn;
+            let turned = self.turned(state, layout, reference, carrier, node)[axis];
             let moved = at(&state.u, layout.translation(turn.carrier, turn.axis));
             put(
                 &mut state.u,
@@ -337,8 +365,15 @@ impl Elimination {
         }
     }
 
-    /// `R a_0 − a_0`; exactly zero as long as nothing turns.
-    fn turned(&self, state: &State, reference: &[Vec3], carrier: RigidId, node: NodeId) -> Vec3 {
+    /// `R a_0 − a_0`, or `θ × a_0` where rotations are small; exactly zero as long as nothing turns.
+    fn turned(
+        &self,
+        state: &State,
+        layout: &Layout,
+        reference: &[Vec3],
+        carrier: RigidId,
+        node: NodeId,
+    ) -> Vec3 {
         let start = reference.get(node as usize);
         let body = self.bodies.get(carrier as usize);
         let (Some(&start), Some(body), Some(pose)) =
@@ -347,7 +382,16 @@ impl Elimination {
             return Vec3::ZERO;
         };
         let arm = start - body.reference;
+        if state.is_small {
+            return self.rotation(state, layout, carrier).cross(arm);
+        }
         pose.rotation * arm - arm
+    }
+
+    /// The rotation vector of a carrier: its increments summed up.
+    fn rotation(&self, state: &State, layout: &Layout, carrier: RigidId) -> Vec3 {
+        let about = |axis| self.increment(layout.rotation(carrier, axis), &state.u);
+        Vec3::new(about(0), about(1), about(2))
     }
 
     /// The raw dofs that take the place of these ones, appended to `out`.
@@ -427,7 +471,7 @@ impl Elimination {
         }
     }
 
-    /// `dx = dθ × a = −[a]× dθ` (E1).
+    /// `dx = dθ × a = −[a]× dθ` (E1), of small rotations too.
     fn resolve_turn(
         &self,
         turn: Turn,
@@ -436,7 +480,7 @@ impl Elimination {
         layout: &Layout,
         out: &mut impl Resolve,
     ) {
-        let row = Mat3::skew(self.arm(state, turn)).rows[turn.axis];
+        let row = Mat3::skew(self.arm(state, layout, turn)).rows[turn.axis];
         for about in (0..3).filter(|&about| about != turn.axis) {
             let rotation = layout.rotation(turn.carrier, about);
             if rotation != NO_DOF {
@@ -446,18 +490,29 @@ impl Elimination {
         out.turn(turn, weight);
     }
 
-    /// The arm `R a_0` of what follows.
-    fn arm(&self, state: &State, turn: Turn) -> Vec3 {
-        let pose = state.poses.get(turn.carrier as usize);
-        let Some(pose) = pose else {
+    /// The arm `R a_0` of what follows; `a_0` where rotations are small.
+    fn arm(&self, state: &State, layout: &Layout, turn: Turn) -> Vec3 {
+        let of = turn.carrier as usize;
+        let (Some(pose), Some(body)) = (state.poses.get(of), self.bodies.get(of)) else {
             return Vec3::ZERO;
         };
         // a node that follows in some directions only lies elsewhere
-        match self.coupled.binary_search_by_key(&turn, |c| c.0) {
-            Ok(k) => pose.rotation * self.coupled[k].1,
-            Err(_) => {
-                let x = state.x.get(turn.node as usize).copied();
-                x.unwrap_or(pose.origin) - pose.origin
+        let coupled = self.coupled.binary_search_by_key(&turn, |c| c.0).ok();
+        let coupled = coupled.and_then(|k| self.coupled.get(k)).map(|c| c.1);
+        let start = coupled.or_else(|| {
+            let of = (turn.carrier, turn.node);
+            let k = self.guided.binary_search_by_key(&of, |g| g.0).ok()?;
+            self.guided.get(k).map(|g| g.1)
+        });
+        let x = state.x.get(turn.node as usize).copied();
+        match (start, state.is_small) {
+            (Some(start), true) => start,
+            (Some(start), false) => pose.rotation * start,
+            (None, false) => x.unwrap_or(pose.origin) - pose.origin,
+            (None, true) => {
+                let moved = |axis| at(&state.u, layout.node(turn.node, axis));
+                let u = Vec3::new(moved(0), moved(1), moved(2));
+                x.map_or(Vec3::ZERO, |x| x - u - body.reference)
             }
         }
     }
@@ -536,8 +591,11 @@ impl Elimination {
         self.turning_forces(state, layout, out);
     }
 
-    /// The change of the moments with the arms, (E2).
+    /// The change of the moments with the arms, (E2); none where rotations are small.
     fn turning_forces(&self, state: &State, layout: &Layout, out: &mut Expanded) {
+        if state.is_small {
+            return;
+        }
         let m = out.dofs.len();
         let Expanded {
             turns,
@@ -547,7 +605,7 @@ impl Elimination {
         } = out;
         for &(turn, f) in turns.iter() {
             let single = Vec3::unit(turn.axis) * f;
-            let term = Mat3::skew(single) * Mat3::skew(self.arm(state, turn));
+            let term = Mat3::skew(single) * Mat3::skew(self.arm(state, layout, turn));
             for i in 0..3 {
                 for j in 0..3 {
                     let (p, q) = (

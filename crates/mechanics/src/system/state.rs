@@ -8,8 +8,11 @@ pub struct State {
     /// Total time.
     pub time: f64,
     /// Raw dofs: displacements of the nodes, translations and rotations of rigid bodies summed up as their increments
-    /// came (rotations only for the record: the poses hold the truth), other fields, multipliers.
+    /// came (where rotations are finite only for the record: the poses hold the truth), other fields, multipliers.
     pub u: Vec<f64>,
+    /// Whether rotations are small: what follows a carrier moves by its rotation vector times the arm of the start, as all
+    /// motions do in a step of small displacements.
+    pub is_small: bool,
     /// Poses of the rigid bodies.
     pub poses: Vec<Pose>,
     /// Present positions of the nodes.

@@ -236,10 +236,12 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 
 #[test]
 fn forces_and_tangents_on_rigid_bodies_match_differences() {
-    for ndim in [2, 3] {
+    for (ndim, is_small) in [(2, false), (2, true), (3, false), (3, true)] {
         for part in PARTS {
-            let scene = Scene::new(ndim, part, 12);
+            let mut scene = Scene::new(ndim, part, 12);
             let n = scene.layout.ndof();
+            scene.state.is_small = is_small;
+            scene.state = scene.moved(&vec![0.0; n], 0.0);
             let (_, here) = scene.assemble(&scene.state, Order::Residual);
             let force = largest(here.residual.iter().copied());
             let mut turned = 0;
@@ -515,6 +517,39 @@ fn terms_may_have_more_or_fewer_chunks_in_an_increment() {
         let wanted = residual(&mut fresh);
         assert!(wanted.iter().any(|r| r.abs() > 0.1));
         assert_eq!(residual(&mut assembler), wanted, "{n}");
+    }
+}
+
+/// `u = u_c + θ × a`, with the arm of the start, however far it goes.
+#[test]
+fn nodes_follow_small_rotations_by_their_vector_times_the_arm() {
+    for ndim in [2, 3] {
+        let mut scene = Scene::new(ndim, Part::Bulk, 12);
+        let n = scene.layout.ndof();
+        scene.state.is_small = true;
+        let start = scene.moved(&vec![0.0; n], 0.0);
+        let mut du = vec![0.0; n];
+        let mut theta = Vec3::ZERO;
+        for c in 0..3 {
+            let dof = scene.layout.rotation(0, c);
+            if dof != NO_DOF {
+                theta[c] = noise(c + 3);
+                du[dof as usize] = theta[c];
+            }
+        }
+        let body = scene.elimination.bodies()[0].clone();
+        let once = scene.moved(&du, 1.0);
+        let thrice = scene.moved(&du, 3.0);
+        for &node in &body.nodes {
+            let k = node as usize;
+            let wanted = theta.cross(scene.reference[k] - body.reference);
+            let moved = [&once, &thrice].map(|state| state.x[k] - start.x[k]);
+            assert!(
+                (moved[0] - wanted).max_abs() < 1e-14,
+                "{moved:?} {wanted:?}"
+            );
+            assert!((moved[1] - wanted * 3.0).max_abs() < 1e-13, "{moved:?}");
+        }
     }
 }
 
