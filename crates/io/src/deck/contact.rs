@@ -121,7 +121,7 @@ impl Translation<'_> {
                 }
                 "SURFACEBEHAVIOR" | "FRICTION" => {
                     let Some(one) = open.as_ref().and_then(|name| all.get_mut(name)) else {
-                        let text = format!("*{} stands in no *SURFACE INTERACTION", card.keyword);
+                        let text = format!("*{} stands in no *SURFACE INTERACTION", card.title);
                         self.error(&codes::CONTRADICTION, text, &card.place, "");
                         continue;
                     };
@@ -685,7 +685,7 @@ impl Translation<'_> {
     fn pair_of(&mut self, card: &Statement, secondary: &Name, primary: &Name) -> Option<usize> {
         let found = self.between(secondary, primary);
         if found.is_none() {
-            let text = format!("*{} of surfaces that are no contact pair", card.keyword);
+            let text = format!("*{} of surfaces that are no contact pair", card.title);
             self.error(&codes::UNDEFINED, text, &card.place, "");
         }
         found

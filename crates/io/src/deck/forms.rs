@@ -200,7 +200,7 @@ impl Translation<'_> {
         let rows = || card.peek_rows().filter(|row| !row.is_empty());
         let (least, most) = form.lines;
         if rows().take(least).count() < least {
-            let text = format!("*{} has no data line", card.keyword);
+            let text = format!("*{} has no data line", card.title);
             let help = format!("write below it: {}", form.words);
             let one = Diagnostic::error(&codes::MISSING, text).at(&card.place, "");
             self.found.push(one.help(help));
@@ -210,8 +210,8 @@ impl Translation<'_> {
             && let Some(row) = rows().nth(most)
         {
             let text = match most {
-                0 => format!("*{} takes no data line", card.keyword),
-                _ => format!("*{} takes {most} data line{}", card.keyword, s(most)),
+                0 => format!("*{} takes no data line", card.title),
+                _ => format!("*{} takes {most} data line{}", card.title, s(most)),
             };
             let place = row.first().map_or_else(|| card.place.clone(), Field::place);
             self.error(
@@ -285,7 +285,7 @@ impl Translation<'_> {
         };
         let text = format!(
             "*{} takes {wanted} value{}{of}, found {found}",
-            card.keyword,
+            card.title,
             s(most)
         );
         let at = row.get(most).or(row.last());
@@ -318,7 +318,7 @@ impl Translation<'_> {
             let (a, b) = (before.text, after.text);
             let text = format!(
                 "`{a},{b}` in *{} looks like a decimal number with a comma",
-                card.keyword
+                card.title
             );
             let one = Diagnostic::error(&codes::NOT_A_NUMBER, text)
                 .at(&before.place(), "a comma separates two values")

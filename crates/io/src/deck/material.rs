@@ -58,7 +58,7 @@ impl Translation<'_> {
                 }
                 "ELASTIC" | "DENSITY" | "EXPANSION" | "PLASTIC" | "HYPERELASTIC" | "HYPERFOAM" => {
                     let Some(mut material) = open.take() else {
-                        let text = format!("*{} stands in no *MATERIAL", card.keyword);
+                        let text = format!("*{} stands in no *MATERIAL", card.title);
                         self.error(&codes::CONTRADICTION, text, &card.place, "");
                         continue;
                     };
@@ -93,7 +93,7 @@ impl Translation<'_> {
         let rows: Vec<_> = card.rows().filter(|row| !row.is_empty()).collect();
         let Some(first) = rows.first() else {
             if !needs_data(card) {
-                let text = format!("*{} has no data", card.keyword);
+                let text = format!("*{} has no data", card.title);
                 self.error(&codes::MISSING, text, &card.place, "");
             }
             return;

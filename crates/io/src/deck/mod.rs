@@ -35,6 +35,7 @@ mod model;
 mod names;
 pub mod oofem;
 mod print;
+mod repeated;
 mod sections;
 mod spring;
 mod step;
@@ -89,6 +90,9 @@ pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Rea
     let deck = inp::read_deck(fs, name, bytes)
         .map_err(|error| Diagnostic::error(&codes::BAD_MESH, error.to_string()))?;
     let mut translation = Translation::new(&deck, name, compat);
+    if translation.has_only_structures() {
+        return Err(translation.found);
+    }
     translation.parameters();
     translation.forms();
     translation.model();

@@ -73,22 +73,9 @@ impl Translation<'_> {
 
     /// Dimension of the model, by the types of its elements.
     fn space(&mut self) {
-        let (names, types) = self.deck.directory.types();
-        let mut used = vec![false; names.len()];
-        for &number in types.iter().flatten() {
-            if let Some(used) = used.get_mut(number as usize) {
-                *used = true;
-            }
-        }
         let dim = self.deck.mesh.dim();
-        let names = || {
-            names
-                .iter()
-                .zip(&used)
-                .filter(|(_, used)| **used)
-                .map(|(name, _)| name)
-        };
-        let of = |letters: &str| names().any(|name| name.starts_with(letters));
+        let used = self.used_types();
+        let of = |letters: &str| used.iter().any(|(name, _)| name.starts_with(letters));
         if dim == 2 && ["CPE", "CPS", "CAX"].into_iter().any(of) {
             self.judge_plane();
         }
@@ -209,36 +196,11 @@ impl Translation<'_> {
             let Some(name) = self.need(card, "NAME") else {
                 continue;
             };
-            for unknown in ["USER", "SHIFTX", "SHIFTY", "DEFINITION", "VALUE"] {
-                if card
-                    .get(unknown)
-                    .is_some_and(|v| !["TABULAR", "RELATIVE"].contains(&v))
-                {
-                    let text = format!("*AMPLITUDE, {unknown} is not supported");
-                    self.error(&codes::NOT_BUILT, text, &card.place, "");
-                }
-            }
-            let fields: Vec<_> = card.rows().flatten().collect();
-            self.pairs_of_amplitude(card, &fields);
-            let mut table: Vec<[f64; 2]> = Vec::new();
-            for pair in fields.chunks(2) {
-                table.push(self.reals(pair));
-            }
-            if table
-                .windows(2)
-                .any(|pair| matches!(pair, [a, b] if b[0] <= a[0]))
-            {
-                let text = "times of *AMPLITUDE do not increase";
-                self.error(&codes::NOT_INCREASING, text, &card.place, "");
-            }
-            let total = card
-                .get("TIME")
-                .map(compared)
-                .is_some_and(|t| t.starts_with("TOTAL"));
+            let total = card.get("TIME").map(compared);
             let amplitude = Amplitude {
                 name: Spanned::new(name.to_owned(), card.place.clone()),
-                factor: Factor::Table(table),
-                time: if total {
+                factor: Factor::Table(self.table_of_amplitude(card)),
+                time: if total.is_some_and(|time| time.starts_with("TOTAL")) {
                     TimeBase::Total
                 } else {
                     TimeBase::Step
@@ -248,6 +210,35 @@ impl Translation<'_> {
                 self.case.amplitudes.push(amplitude);
             }
         }
+    }
+
+    /// Times and values, those of SHIFTX and SHIFTY added.
+    fn table_of_amplitude(&mut self, card: &Statement) -> Vec<[f64; 2]> {
+        if card.has("USER") {
+            let text = "*AMPLITUDE, USER is not supported";
+            let remark = "it is a subroutine, which the deck does not contain: write its values";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
+            return Vec::new();
+        }
+        for (word, known) in [("DEFINITION", "TABULAR"), ("VALUE", "RELATIVE")] {
+            let given = card.get(word).map(compared);
+            if let Some(given) = given.filter(|given| given != known) {
+                let text = format!("*AMPLITUDE, {word}={given} is not supported");
+                self.error(&codes::NOT_BUILT, text, &card.place, known);
+            }
+        }
+        let shifts = ["SHIFTX", "SHIFTY"];
+        let [later, more] = shifts.map(|name| self.parameter(card, name, name).unwrap_or(0.0));
+        let fields: Vec<_> = card.rows().flatten().collect();
+        self.pairs_of_amplitude(card, &fields);
+        let pairs = fields.chunks(2).map(|pair| self.reals(pair));
+        let table: Vec<[f64; 2]> = pairs.map(|[t, a]| [t + later, a + more]).collect();
+        let increase = |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[0] > a[0]);
+        if !table.windows(2).all(increase) {
+            let text = "times of *AMPLITUDE do not increase";
+            self.error(&codes::NOT_INCREASING, text, &card.place, "");
+        }
+        table
     }
 
     /// Refuses a table of no pairs, or with half a pair at its end.

@@ -9,7 +9,54 @@ use std::collections::BTreeMap;
 /// Coordinates across a plane may differ by this part of its size: roundings of decimals.
 const FLAT: f64 = 1e-9;
 
+/// Elements that are not built.
+const STRUCTURES: [&str; 3] = ["shell", "membrane", "beam"];
+
 impl Translation<'_> {
+    /// Refuses a deck all of whose elements are shells, beams or membranes: whatever else it says is about these.
+    pub fn has_only_structures(&mut self) -> bool {
+        let used = self.used_types();
+        let word = |kind: &str| without_volume(kind).filter(|word| STRUCTURES.contains(word));
+        let are_all = used.iter().all(|(kind, _)| word(kind).is_some());
+        let Some(&(kind, _)) = used.first().filter(|_| are_all) else {
+            return false;
+        };
+        let count: usize = used.iter().map(|(_, count)| count).sum();
+        let kinds: Vec<&str> = used.iter().map(|(kind, _)| *kind).collect();
+        let what = word(kind).unwrap_or("structure");
+        let elements = match count {
+            1 => "its element is no solid".to_owned(),
+            _ => format!("all {count} elements are no solids"),
+        };
+        let text = format!(
+            "{elements} ({}): {what}s are not built yet",
+            kinds.join(", ")
+        );
+        let mut one = Diagnostic::error(&codes::NOT_BUILT, text);
+        if let Some((_, card)) = self
+            .cells
+            .first()
+            .and_then(|cell| self.deck.directory.card_of(*cell))
+        {
+            one = one.at(&card.place, "defined here");
+        }
+        self.found
+            .push(one.help("mesh the part with solids, such as C3D10 or C3D20R"));
+        true
+    }
+
+    /// Whether sections are refused whose elements take loads that solids do not: moments, and pressures on their faces.
+    pub fn has_structures(&self) -> bool {
+        let refused = [
+            "SHELLSECTION",
+            "BEAMSECTION",
+            "BEAMGENERALSECTION",
+            "MEMBRANESECTION",
+        ];
+        let mut cards = self.deck.statements.iter();
+        cards.any(|card| refused.contains(&card.keyword.as_str()))
+    }
+
     /// Refuses elements that no section gives a material, and no rigid body its motion: without them, and the loads on
     /// them, the model would be another one.
     pub fn elements_without_section(&mut self) {

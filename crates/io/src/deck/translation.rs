@@ -3,18 +3,18 @@
 use super::compat::Compat;
 use super::keywords::{Keyword, Support};
 use super::names::Names;
+use super::repeated::Repeated;
 use super::{constraint, contact, material};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
-use crate::readers::inp::{Deck, Field, Kind, Statement, compared, judge, number};
+use crate::readers::inp::{
+    Deck, Field, Kind, Statement, compared, judge, not_read, number, spelled,
+};
 use crate::readers::labels::Lookup;
 use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// How many further lines a note names.
-const LISTED: usize = 8;
+use std::collections::BTreeMap;
 
 /// What a line of a card is about: a set of the mesh, or a single node or element by its number in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,6 +54,29 @@ pub(super) struct Translation<'d> {
 /// Whether elements of this type are bars that carry normal force only.
 pub(super) fn is_truss(kind: &str) -> bool {
     kind.starts_with("T2D") || kind.starts_with("T3D")
+}
+
+/// What becomes of a card that no keyword is for, and what is remarked at it. CalculiX passes over it with a warning; one
+/// that is written like another is a typing error.
+fn unknown_keyword(card: &Statement, compat: Compat) -> (Diagnostic, String) {
+    let names = super::KEYWORDS.iter().map(|one| one.name);
+    if let Some(meant) = closest(&card.title, names) {
+        let text = format!("there is no keyword *{}", card.title);
+        let remark = format!("did you mean *{meant}?");
+        return (Diagnostic::error(&codes::UNKNOWN_KEY, text), remark);
+    }
+    if compat == Compat::Ccx {
+        let text = format!(
+            "*{} is not known: it is left out, as CalculiX does",
+            card.title
+        );
+        return (Diagnostic::warning(&codes::UNUSUAL, text), String::new());
+    }
+    let text = format!("there is no keyword *{}", card.title);
+    let help =
+        "if it changes no result, remove it; `signorini keywords` lists those that are known";
+    let one = Diagnostic::error(&codes::UNKNOWN_KEY, text).help(help);
+    (one, String::new())
 }
 
 impl<'d> Translation<'d> {
@@ -112,89 +135,56 @@ impl<'d> Translation<'d> {
         })
     }
 
-    /// Refuses parameters that cards do not take, and words that parameters do not.
+    /// Refuses parameters that cards do not take, and words that parameters do not: once each, with all lines.
     pub fn parameters(&mut self) {
+        let mut faults = Repeated::default();
         for card in &self.deck.statements {
             let named = card.parameters().filter(|(name, _)| !name.is_empty());
             for (name, value) in named {
                 if let Some(fault) = judge(&card.keyword, name, value) {
                     let one = Diagnostic::error(fault.code, fault.message);
-                    let one = one.at(&card.place, fault.remark);
-                    self.found.push(one.note(fault.known));
+                    faults.add(one, fault.remark, &card.place, Some(fault.known));
                 }
             }
         }
+        faults.report(&mut self.found);
     }
 
     /// Names cards that are left out and what of others is not read, once each with all places, and refuses those that
     /// are not built or not known.
     pub fn judge(&mut self) {
-        let mut reported = BTreeSet::new();
-        let mut unread: BTreeMap<String, Vec<&Place>> = BTreeMap::new();
+        let mut all = Repeated::default();
+        let note = |text| Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text);
         for card in &self.deck.statements {
+            let place = &card.place;
             match Keyword::of(&card.keyword) {
                 Some(known) if known.support == Support::Read => {
-                    let mut add = |text| unread.entry(text).or_default().push(&card.place);
                     if card.is_unread() {
-                        add(format!("*{} is left out: it is not read here", known.name));
+                        let text = format!("*{} is left out: it is not read here", known.name);
+                        all.add(note(text), "", place, None);
                         continue;
                     }
                     for name in card.unread() {
-                        add(format!("{name} of *{} is not read", known.name));
+                        all.add(note(not_read(&card.keyword, name)), "", place, None);
                     }
                 }
                 Some(known) if known.support == Support::Ignored => {
                     if !known.remark.is_empty() {
                         let text = format!("*{} is left out: {}", known.name, known.remark);
-                        unread.entry(text).or_default().push(&card.place);
+                        all.add(note(text), "", place, None);
                     }
                 }
                 Some(known) => {
                     let text = format!("*{} is not supported: {}", known.name, known.remark);
-                    self.error(&codes::NOT_BUILT, text, &card.place, "");
+                    all.add(Diagnostic::error(&codes::NOT_BUILT, text), "", place, None);
                 }
                 None => {
-                    if reported.insert(&card.keyword) {
-                        let names = super::KEYWORDS.iter().map(|one| one.name);
-                        let meant = closest(&card.keyword, names);
-                        let remark = meant.map_or(String::new(), |m| format!("did you mean *{m}?"));
-                        let text = format!("there is no keyword *{}", card.keyword);
-                        self.error(&codes::UNKNOWN_KEY, text, &card.place, remark);
-                    }
+                    let (one, remark) = unknown_keyword(card, self.compat);
+                    all.add(one, remark, place, None);
                 }
             }
         }
-        for (text, places) in unread {
-            self.note_at(text, &places);
-        }
-    }
-
-    /// A note on something that has no effect, at its first place, with the lines of the others.
-    fn note_at(&mut self, text: String, places: &[&Place]) {
-        let Some((first, others)) = places.split_first() else {
-            return;
-        };
-        let mut note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text).at(first, "");
-        let of = first.get().map(|(file, _)| file.name());
-        let line = |place: &&Place| {
-            let (file, range) = place.get()?;
-            let number = file.line_index(range.start) + 1;
-            Some(match of == Some(file.name()) {
-                true => number.to_string(),
-                false => format!("{number} of {}", file.name()),
-            })
-        };
-        let mut lines: Vec<String> = others.iter().filter_map(line).collect();
-        if !lines.is_empty() {
-            let nleft = lines.len().saturating_sub(LISTED);
-            lines.truncate(LISTED);
-            let more = match nleft {
-                0 => String::new(),
-                count => format!(" and {count} more"),
-            };
-            note = note.note(format!("also in lines {}{more}", lines.join(", ")));
-        }
-        self.found.push(note);
+        all.report(&mut self.found);
     }
 
     pub fn error(
@@ -223,7 +213,8 @@ impl<'d> Translation<'d> {
     pub fn need<'s>(&mut self, card: &'s Statement, parameter: &str) -> Option<&'s str> {
         let value = card.get(parameter).filter(|value| !value.is_empty());
         if value.is_none() {
-            let text = format!("*{} has no {parameter}", card.keyword);
+            let parameter = spelled(&card.keyword, parameter);
+            let text = format!("*{} has no {parameter}", card.title);
             self.error(&codes::MISSING, text, &card.place, "");
         }
         value
@@ -269,7 +260,7 @@ impl<'d> Translation<'d> {
     pub fn not_negative(&mut self, card: &Statement, row: &[Field<'_>]) {
         for field in row {
             if let Some(value) = field.real().filter(|value| *value < 0.0) {
-                let text = format!("{value} in *{} is negative", card.keyword);
+                let text = format!("{value} in *{} is negative", card.title);
                 self.error(&codes::OUT_OF_RANGE, text, &field.place(), "zero or more");
             }
         }
@@ -327,7 +318,7 @@ impl<'d> Translation<'d> {
         kind: Kind,
     ) -> Vec<Target> {
         let Some(field) = field.filter(|field| !field.text.is_empty()) else {
-            let text = format!("a line of *{} names nothing", card.keyword);
+            let text = format!("a line of *{} names nothing", card.title);
             self.error(&codes::MISSING, text, &card.place, "");
             return Vec::new();
         };
@@ -457,6 +448,19 @@ impl<'d> Translation<'d> {
             .and_then(|t| t.get(cell.index as usize));
         let name = number.and_then(|&number| names.get(number as usize));
         name.map_or("", String::as_str)
+    }
+
+    /// The types of elements in use, each with the number of its elements.
+    pub fn used_types(&self) -> Vec<(&'d str, usize)> {
+        let (names, types) = self.deck.directory.types();
+        let mut counts = vec![0; names.len()];
+        for &number in types.iter().flatten() {
+            if let Some(count) = counts.get_mut(number as usize) {
+                *count += 1;
+            }
+        }
+        let all = names.iter().map(String::as_str).zip(counts);
+        all.filter(|(_, count)| *count > 0).collect()
     }
 
     pub fn ndim(&self) -> usize {

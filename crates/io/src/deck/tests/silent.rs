@@ -271,8 +271,8 @@ fn sections_of_what_is_no_solid_are_refused() {
     assert_refused(&[
         (
             plane.replace("CPE4", "S4"),
-            11,
-            "element 1, which is no solid: S4 (shell)",
+            6,
+            "its element is no solid (S4): shells are not built yet",
         ),
         (
             cube("C3D8", &format!("{skin}{STEP}")),
@@ -418,4 +418,107 @@ fn values_out_of_range_are_refused_with_their_line() {
     let material = case(&cube("C3D8", STEP)).materials.remove(0);
     let constants = &material.constants[0].values.place;
     assert_eq!(constants.line().as_deref(), Some("line 22 of job.inp"));
+}
+
+#[test]
+fn faults_of_many_cards_are_reported_once_with_their_lines() {
+    let loads = "*CLOAD, FOLLOWER\nTOP, 3, 1.\n".repeat(12);
+    let text = refused(&cube(
+        "C3D8",
+        &format!("*STEP\n*STATIC\n{loads}*END STEP\n"),
+    ));
+    assert_eq!(
+        text.matches("FOLLOWER of *CLOAD is not supported").count(),
+        1,
+        "{text}"
+    );
+    assert!(text.contains("and 3 more"), "{text}");
+    let cards = "*CREEP\n1.,2.,3.\n".repeat(2);
+    let text = refused(&cube("C3D8", &format!("{cards}{STEP}")));
+    assert_eq!(text.matches("*CREEP is not supported").count(), 1, "{text}");
+    assert!(text.contains("also in lines"), "{text}");
+}
+
+#[test]
+fn parameters_that_are_like_none_are_noted_and_change_nothing() {
+    let plain = translated(&cube("C3D8", STEP), Compat::None).unwrap();
+    for (from, to, note) in [
+        (
+            "*CLOAD",
+            "*CLOAD, QWERTZ",
+            "*CLOAD has no parameter QWERTZ: it is not read",
+        ),
+        (
+            "*STATIC",
+            "*STATIC, XY=3",
+            "*STATIC has no parameter XY: it is not read",
+        ),
+    ] {
+        let text = cube("C3D8", &STEP.replace(from, to));
+        let read = translated(&text, Compat::None).unwrap();
+        assert_eq!(read.case.steps, plain.case.steps);
+        assert!(read.found.plain().contains(note), "{}", read.found.plain());
+    }
+    let print = "*CONTACT PRINT, SET=TOP\nCDIS\n*END STEP";
+    let text = cube("C3D8", &STEP.replace("*END STEP", print));
+    let notes = translated(&text, Compat::None).unwrap().found.plain();
+    assert!(
+        notes.contains("*CONTACT PRINT has no parameter SET"),
+        "{notes}"
+    );
+}
+
+#[test]
+fn keywords_that_nobody_knows_are_refused_and_passed_over_as_calculix_does() {
+    let text = cube("C3D8", &format!("*SOMETHING ELSE, A=1\n1., 2.\n{STEP}"));
+    let found = refused(&text);
+    assert!(
+        found.contains("there is no keyword *SOMETHING ELSE"),
+        "{found}"
+    );
+    let read = translated(&text, Compat::Ccx).unwrap_or_else(|found| panic!("{}", found.plain()));
+    assert!(
+        read.found
+            .plain()
+            .contains("*SOMETHING ELSE is not known: it is left out")
+    );
+    // a typing error is none that CalculiX means to pass over
+    let typo = text.replace("*SOMETHING ELSE", "*BOUNDRY");
+    assert!(translated(&typo, Compat::Ccx).is_err());
+}
+
+#[test]
+fn decks_of_shells_or_beams_alone_are_refused_by_one_message() {
+    let deck = |kind: &str, nodes: &str, section: &str| {
+        format!(
+            "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT, TYPE={kind}, ELSET=E\n1,{nodes}\n\
+             *MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n{section}*BOUNDARY\n1,1,6\n\
+             *STEP\n*STATIC\n*CLOAD\n2,5,1.\n*DLOAD\nE,P,1.\n*END STEP\n"
+        )
+    };
+    for (kind, nodes, section, words) in [
+        (
+            "S4",
+            "1,2,3,4",
+            "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.1\n",
+            "(S4): shells are not built yet",
+        ),
+        ("S3", "1,2,3", "", "(S3): shells are not built yet"),
+        (
+            "B31",
+            "1,2",
+            "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n1.,1.\n",
+            "(B31): beams are not built yet",
+        ),
+    ] {
+        let found = translated(&deck(kind, nodes, section), Compat::None).unwrap_err();
+        assert_eq!(found.len(), 1, "{}", found.plain());
+        assert!(found.plain().contains(words), "{}", found.plain());
+    }
+    // next to solids the section alone is refused, and no load on its elements
+    let mixed = "*NODE\n9,3,0,0\n10,4,0,0\n11,4,1,0\n12,3,1,0\n*ELEMENT, TYPE=S4, ELSET=SH\n9,9,10,11,12\n\
+                 *SHELL SECTION, ELSET=SH, MATERIAL=M\n0.1\n";
+    let step = STEP.replace("TOP, 3, 1.", "9, 5, 1.\n*DLOAD\nSH, P, 1.");
+    let found = translated(&cube("C3D8", &format!("{mixed}{step}")), Compat::None).unwrap_err();
+    assert_eq!(found.len(), 1, "{}", found.plain());
 }

@@ -228,3 +228,84 @@ fn cylindrical_axes_have_a_radius_on_their_axis_too() {
         assert!(off < 1e-5, "{to:?}: {first:?}");
     }
 }
+
+#[test]
+fn prints_without_a_set_print_nothing_and_say_so() {
+    let with = |cards: &str| {
+        let text = cube(
+            "C3D8",
+            &STEP.replace("*END STEP", &format!("{cards}*END STEP")),
+        );
+        let read =
+            translated(&text, Compat::None).unwrap_or_else(|found| panic!("{}", found.plain()));
+        let prints = read.case.steps[0].prints.clone().unwrap_or_default();
+        (prints, read.found.plain())
+    };
+    let (prints, notes) = with("*Node Print\nU\n*EL PRINT\nS\n");
+    assert!(prints.is_empty());
+    for card in ["*NODE PRINT", "*EL PRINT"] {
+        let note = format!("{card} names no set: it prints nothing");
+        assert_eq!(notes.matches(&note).count(), 1, "{notes}");
+    }
+    // switched off, as Abaqus/CAE writes it
+    for off in ["FREQUENCY=0", "FREQ=999999", "freq=0"] {
+        let (prints, notes) = with(&format!("*NODE PRINT, {off}\nU\n"));
+        assert!(
+            prints.is_empty() && !notes.contains("names no set"),
+            "{notes}"
+        );
+    }
+    // none of a set is printed never, the others as before
+    let (prints, _) = with("*NODE PRINT, NSET=TOP, FREQUENCY=0\nU\n*EL PRINT, ELSET=CUBE\nS\n");
+    assert_eq!(prints.len(), 1);
+    assert_eq!(prints[0].every, 1);
+}
+
+#[test]
+fn a_mesh_that_should_be_refined_is_left_with_a_warning() {
+    let text = cube(
+        "C3D8",
+        &STEP.replace("*END STEP", "*REFINE MESH, LIMIT=5.\nS\n*END STEP"),
+    );
+    let read = translated(&text, Compat::None).unwrap();
+    let found = read.found.plain();
+    assert!(found.contains("*REFINE MESH is left out"), "{found}");
+    assert!(
+        read.found
+            .iter()
+            .any(|one| one.severity == Severity::Warning)
+    );
+}
+
+#[test]
+fn amplitudes_are_shifted_and_words_are_read_whatever_their_letters() {
+    let table = |card: &str| {
+        let text = cube(
+            "C3D8",
+            &format!("*AMPLITUDE, NAME=A{card}\n0., 1., 2., 3.\n{STEP}"),
+        );
+        translated(&text, Compat::None).map(|read| match &read.case.amplitudes[0].factor {
+            Factor::Table(rows) => rows.clone(),
+            other => panic!("{other:?}"),
+        })
+    };
+    let plain = [[0.0, 1.0], [2.0, 3.0]];
+    assert_eq!(table("").unwrap(), plain);
+    assert_eq!(
+        table(", value=relative, definition=Tabular").unwrap(),
+        plain
+    );
+    let shifted = table(", SHIFTX=0.5, SHIFTY=-1.").unwrap();
+    assert_eq!(shifted, [[0.5, 0.0], [2.5, 2.0]]);
+    for (card, message) in [
+        (", USER", "*AMPLITUDE, USER is not supported"),
+        (", VALUE=ABSOLUTE", "VALUE=ABSOLUTE is not supported"),
+        (
+            ", DEFINITION=PERIODIC",
+            "DEFINITION=PERIODIC is not supported",
+        ),
+    ] {
+        let found = table(card).unwrap_err().plain();
+        assert!(found.contains(message), "{found}");
+    }
+}

@@ -1,6 +1,7 @@
 //! Cards: keyword lines with their parameters, and the fields of data lines.
 
 use super::lines::{Lines, Spot};
+use super::parameters::spelled;
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
 use std::cell::Cell;
@@ -35,6 +36,8 @@ impl Parameter {
 pub(super) struct Card {
     /// In capitals, without star and blanks.
     pub keyword: String,
+    /// In capitals, without star, its words apart: for messages.
+    pub title: String,
     /// In their order.
     pub parameters: Vec<Parameter>,
     /// Its line.
@@ -57,7 +60,7 @@ impl Card {
 
     fn parse(line: &[u8], spot: Spot) -> Self {
         let mut fields = Fields::of(line.trim_ascii().strip_prefix(b"*").unwrap_or(line));
-        let keyword = key(&text(fields.next().unwrap_or_default()));
+        let title = title(&text(fields.next().unwrap_or_default()));
         let parameter = |field| {
             let field = text(field);
             let (name, value) = field.split_once('=').unwrap_or((&field, ""));
@@ -69,7 +72,8 @@ impl Card {
         };
         let parameters = fields.filter(|f| !f.is_empty()).map(parameter).collect();
         Self {
-            keyword,
+            keyword: key(&title),
+            title,
             parameters,
             spot,
             written: text(line),
@@ -86,8 +90,8 @@ impl Card {
         let value = self.get(name).filter(|value| !value.is_empty());
         value.ok_or_else(|| MeshError::NoParameter {
             place: lines.place_of(self.spot),
-            card: self.keyword.clone(),
-            parameter: name,
+            card: self.title.clone(),
+            parameter: spelled(&self.keyword, name),
         })
     }
 }
@@ -108,6 +112,12 @@ pub(super) fn included(line: &[u8]) -> Option<(String, bool)> {
         "NODE" | "ELEMENT" | "NSET" | "ELSET" | "SURFACE" => Some((path, true)),
         _ => None,
     }
+}
+
+/// A keyword in capitals, with one blank between its words.
+fn title(name: &str) -> String {
+    let words: Vec<String> = name.split_whitespace().map(str::to_uppercase).collect();
+    words.join(" ")
 }
 
 /// What names are compared by: in capitals, without blanks, as CalculiX reads them.
@@ -228,7 +238,7 @@ pub(super) fn at_most(
     }
     Err(MeshError::TooManyValues {
         place: lines.place(),
-        card: card.keyword.clone(),
+        card: card.title.clone(),
         wanted,
         found,
         hint,
@@ -244,7 +254,7 @@ pub(super) fn not_a_number(
 ) -> MeshError {
     MeshError::NotANumber {
         place: lines.place(),
-        section: format!("*{}", card.keyword),
+        section: format!("*{}", card.title),
         wanted,
         found: excerpt(found),
         hint: "",
@@ -308,6 +318,7 @@ mod tests {
             Spot::default(),
         );
         assert_eq!(card.keyword, "NODEPRINT");
+        assert_eq!(card.title, "NODE PRINT");
         assert_eq!(card.get("NSET"), Some("my, Set"));
         assert_eq!(card.get("FREQUENCY"), Some("2"));
         assert_eq!(card.get("GLOBAL"), Some(""));

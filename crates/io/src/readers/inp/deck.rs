@@ -5,7 +5,7 @@ use super::definition::{Definition, Family, Region, Side};
 use super::directory::ElementCard;
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
-use super::parameters::judge;
+use super::parameters::{judge, not_read};
 use super::statement::{Statement, place_of};
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
@@ -258,7 +258,7 @@ impl Reader<'_> {
                 count => format!(", and {count} times more below"),
             };
             let place = self.lines.place_of(*first);
-            let note = format!("{place}: {name} of *{keyword} is not read{more}");
+            let note = format!("{place}: {}{more}", not_read(&keyword, &name));
             self.deck.notes.push(note);
         }
     }
@@ -270,7 +270,7 @@ impl Reader<'_> {
     fn refused(&self, card: &Card, why: &'static str) -> MeshError {
         MeshError::Refused {
             place: self.lines.place_of(card.spot),
-            card: card.keyword.clone(),
+            card: card.title.clone(),
             why,
         }
     }
@@ -559,7 +559,7 @@ impl Reader<'_> {
     fn nesting(&self, card: &Card, found: &'static str, wanted: &'static str) -> MeshError {
         MeshError::Nesting {
             place: self.lines.place_of(card.spot),
-            card: card.keyword.clone(),
+            card: card.title.clone(),
             found,
             wanted,
         }

@@ -40,7 +40,7 @@ mod tests;
 pub use card::compared;
 pub use directory::{Directory, ElementCard, Kind, Special};
 pub(crate) use kind::without_volume;
-pub(crate) use parameters::judge;
+pub(crate) use parameters::{judge, not_read, spelled};
 pub use statement::{Field, Statement};
 
 use super::{MeshError, Place};

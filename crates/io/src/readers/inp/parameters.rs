@@ -1,7 +1,8 @@
 //! The parameters that cards take, and the words that these may have.
 //!
-//! A parameter that no card has, or a word that it does not take, is a fault: a typing error in `NLGEOM` would otherwise
-//! solve another problem. Parameters that are known and change no result here are taken and noted as not read.
+//! A parameter that is like one of the card's, or a word that it does not take, is a fault: a typing error in `NLGEOM`
+//! would otherwise solve another problem. Parameters that are known and change no result here are taken and noted as not
+//! read; so are those that are like none, as CalculiX passes over them.
 //!
 //! Source: Abaqus Keywords Reference Guide; CalculiX CrunchiX User's Manual, chapter 7.
 //!
@@ -32,9 +33,9 @@ const FREQUENCY: (&str, Takes) = ("FREQUENCY", Any);
 
 /// The parameters of a card.
 struct Card {
-    /// In capitals, without blanks.
+    /// In capitals, with its blanks.
     keyword: &'static str,
-    /// Those that are read, and those that change no result here.
+    /// Those that are read, and those that change no result here; in capitals, with their blanks.
     takes: &'static [(&'static str, Takes)],
     /// Those that other programs know, and that would change results.
     refused: &'static [&'static str],
@@ -56,91 +57,91 @@ const fn card(
 #[rustfmt::skip]
 const CARDS: &[Card] = &[
     card("AMPLITUDE",
-        &[("NAME", Any), ("TIME", Words(&["STEPTIME", "TOTALTIME"])), ("DEFINITION", Any), ("VALUE", Any), ("USER", Any),
+        &[("NAME", Any), ("TIME", Words(&["STEP TIME", "TOTAL TIME"])), ("DEFINITION", Any), ("VALUE", Any), ("USER", Any),
           ("SHIFTX", Any), ("SHIFTY", Any)],
-        &["SMOOTH", "BEGIN", "FIXEDINTERVAL", "VARIABLES", "PROPERTIES"]),
+        &["SMOOTH", "BEGIN", "FIXED INTERVAL", "VARIABLES", "PROPERTIES"]),
     card("ASSEMBLY", &[("NAME", Any), ("LIBRARY", Any)], &[]),
     card("BOUNDARY",
-        &[("AMPLITUDE", Any), ("TIMEDELAY", Any), OP, ("FIXED", Flag), ("TYPE", Any), ("SUBMODEL", Any), ("USER", Any)],
-        &["LOADCASE", "REGIONTYPE", "MASSFLOW", "PRESSURE", "TEMPERATURE", "STEP", "DATASET", "GLOBALELSET", "FILE",
+        &[("AMPLITUDE", Any), ("TIME DELAY", Any), OP, ("FIXED", Flag), ("TYPE", Any), ("SUBMODEL", Any), ("USER", Any)],
+        &["LOAD CASE", "REGION TYPE", "MASS FLOW", "PRESSURE", "TEMPERATURE", "STEP", "DATA SET", "GLOBAL ELSET", "FILE",
           "PHANTOM", "SCALE"]),
-    card("CHANGEFRICTION", &[("INTERACTION", Any)], &["RESET", "AMPLITUDE", "ELSET"]),
-    card("CHANGESOLIDSECTION", &[("ELSET", Any), ("MATERIAL", Any), ("ORIENTATION", Any)], &[]),
-    card("CHANGESURFACEBEHAVIOR", &[("INTERACTION", Any)], &[]),
+    card("CHANGE FRICTION", &[("INTERACTION", Any)], &["RESET", "AMPLITUDE", "ELSET"]),
+    card("CHANGE SOLID SECTION", &[("ELSET", Any), ("MATERIAL", Any), ("ORIENTATION", Any)], &[]),
+    card("CHANGE SURFACE BEHAVIOR", &[("INTERACTION", Any)], &[]),
     card("CLEARANCE", &[("MASTER", Any), ("SLAVE", Any), ("VALUE", Any), ("CPSET", Any)], &["TABULAR", "BOLT"]),
     card("CLOAD",
-        &[("AMPLITUDE", Any), ("TIMEDELAY", Any), OP],
-        &["FOLLOWER", "LOADCASE", "SUBMODEL", "STEP", "DATASET", "OMEGA0", "SECTOR", "REGIONTYPE", "USER", "REAL",
-          "IMAGINARY", "CYCLICMODE", "PROPERTIES"]),
-    card("CONTACTPAIR",
-        &[("INTERACTION", Any), ("TYPE", Any), ("ADJUST", Any), ("SMALLSLIDING", Flag), ("CPSET", Any),
-          ("EXTENSIONZONE", Any), ("TRACKING", Any), ("NAME", Any), ("SUPPLEMENTARYCONSTRAINTS", Any),
-          ("NOTHICKNESS", Any), ("SMOOTH", Any), ("MECHANICALCONSTRAINT", Any), ("WEIGHT", Any),
-          ("GEOMETRICCORRECTION", Any), ("FRACTION", Any), ("SLIDINGTRANSITION", Any)],
-        &["TIED", "HCRIT", "SLIPTOLERANCE", "OP", "MINIMUMDISTANCE", "DELAY"]),
-    card("CONTACTPRINT",
+        &[("AMPLITUDE", Any), ("TIME DELAY", Any), OP],
+        &["FOLLOWER", "LOAD CASE", "SUBMODEL", "STEP", "DATA SET", "OMEGA0", "SECTOR", "REGION TYPE", "USER", "REAL",
+          "IMAGINARY", "CYCLIC MODE", "PROPERTIES"]),
+    card("CONTACT PAIR",
+        &[("INTERACTION", Any), ("TYPE", Any), ("ADJUST", Any), ("SMALL SLIDING", Flag), ("CPSET", Any),
+          ("EXTENSION ZONE", Any), ("TRACKING", Any), ("NAME", Any), ("SUPPLEMENTARY CONSTRAINTS", Any),
+          ("NO THICKNESS", Any), ("SMOOTH", Any), ("MECHANICAL CONSTRAINT", Any), ("WEIGHT", Any),
+          ("GEOMETRIC CORRECTION", Any), ("FRACTION", Any), ("SLIDING TRANSITION", Any)],
+        &["TIED", "HCRIT", "SLIP TOLERANCE", "OP", "MINIMUM DISTANCE", "DELAY"]),
+    card("CONTACT PRINT",
         &[("SLAVE", Any), ("MASTER", Any), ("NSET", Any), FREQUENCY, TOTALS, GLOBAL, ("FREQ", Any), ("FREQUENCYF", Any),
-          ("TIMEPOINTS", Any), ("SUMMARY", Any), ("CONTACTELEMENTS", Any)],
+          ("TIME POINTS", Any), ("SUMMARY", Any), ("CONTACT ELEMENTS", Any)],
         &[]),
     card("COUPLING",
-        &[("REFNODE", Any), ("SURFACE", Any), ("ORIENTATION", Any), ("CONSTRAINTNAME", Any)],
-        &["INFLUENCERADIUS", "ADJUST", "ALPHA"]),
-    card("CYCLICSYMMETRYMODEL", &[("N", Any), ("TIE", Any), ("NGRAPH", Any), ("ELSET", Any), ("CHECK", Any)], &[]),
+        &[("REF NODE", Any), ("SURFACE", Any), ("ORIENTATION", Any), ("CONSTRAINT NAME", Any)],
+        &["INFLUENCE RADIUS", "ADJUST", "ALPHA"]),
+    card("CYCLIC SYMMETRY MODEL", &[("N", Any), ("TIE", Any), ("NGRAPH", Any), ("ELSET", Any), ("CHECK", Any)], &[]),
     card("DENSITY", &[("FLUID", Flag)], &["DEPENDENCIES"]),
     card("DISTRIBUTING",
-        &[("COUPLING", Any), ("WEIGHTINGMETHOD", Words(&["UNIFORM"]))],
-        &["ROTATIONALCOUPLING", "CYCLICSYMMETRY"]),
-    card("DISTRIBUTINGCOUPLING", &[("ELSET", Any)], &[]),
+        &[("COUPLING", Any), ("WEIGHTING METHOD", Words(&["UNIFORM"]))],
+        &["ROTATIONAL COUPLING", "CYCLIC SYMMETRY"]),
+    card("DISTRIBUTING COUPLING", &[("ELSET", Any)], &[]),
     card("DLOAD",
-        &[("AMPLITUDE", Any), ("TIMEDELAY", Any), OP],
-        &["FOLLOWER", "LOADCASE", "SUBMODEL", "STEP", "DATASET", "SECTOR", "CONSTANTRESULTANT", "ORIENTATION", "REFNODE",
-          "REGIONTYPE", "REAL", "IMAGINARY", "CYCLICMODE", "GLOBALELSET"]),
+        &[("AMPLITUDE", Any), ("TIME DELAY", Any), OP],
+        &["FOLLOWER", "LOAD CASE", "SUBMODEL", "STEP", "DATA SET", "SECTOR", "CONSTANT RESULTANT", "ORIENTATION", "REF NODE",
+          "REGION TYPE", "REAL", "IMAGINARY", "CYCLIC MODE", "GLOBAL ELSET"]),
     card("DSLOAD",
-        &[("AMPLITUDE", Any), ("TIMEDELAY", Any), OP],
-        &["FOLLOWER", "LOADCASE", "SUBMODEL", "STEP", "DATASET", "SECTOR", "CONSTANTRESULTANT", "ORIENTATION", "REFNODE",
-          "REAL", "IMAGINARY", "CYCLICMODE", "GLOBALELSET"]),
+        &[("AMPLITUDE", Any), ("TIME DELAY", Any), OP],
+        &["FOLLOWER", "LOAD CASE", "SUBMODEL", "STEP", "DATA SET", "SECTOR", "CONSTANT RESULTANT", "ORIENTATION", "REF NODE",
+          "REAL", "IMAGINARY", "CYCLIC MODE", "GLOBAL ELSET"]),
     card("ELASTIC",
-        &[("TYPE", Any), ("MODULI", Words(&["LONGTERM", "INSTANTANEOUS"]))],
-        &["DEPENDENCIES", "COMPRESSIONFACTOR"]),
-    card("ELEMENT", &[("TYPE", Any), ("ELSET", Any), ("INPUT", Any)], &["FILE", "OFFSET", "SOLIDELEMENTNUMBERING"]),
-    card("ELPRINT",
-        &[("ELSET", Any), FREQUENCY, TOTALS, GLOBAL, ("FREQ", Any), ("FREQUENCYF", Any), ("TIMEPOINTS", Any),
-          ("SUMMARY", Any), ("POSITION", Any), ("REBAR", Any), ("DIRECTIONS", Any), ("LASTMODE", Any), ("MODE", Any),
+        &[("TYPE", Any), ("MODULI", Words(&["LONG TERM", "INSTANTANEOUS"]))],
+        &["DEPENDENCIES", "COMPRESSION FACTOR"]),
+    card("ELEMENT", &[("TYPE", Any), ("ELSET", Any), ("INPUT", Any)], &["FILE", "OFFSET", "SOLID ELEMENT NUMBERING"]),
+    card("EL PRINT",
+        &[("ELSET", Any), FREQUENCY, TOTALS, GLOBAL, ("FREQ", Any), ("FREQUENCYF", Any), ("TIME POINTS", Any),
+          ("SUMMARY", Any), ("POSITION", Any), ("REBAR", Any), ("DIRECTIONS", Any), ("LAST MODE", Any), ("MODE", Any),
           ("OUTPUT", Any)],
         &[]),
     card("ELSET",
         &[("ELSET", Any), ("GENERATE", Flag), ("INSTANCE", Any), ("INTERNAL", Flag), ("UNSORTED", Flag), ("INPUT", Any)],
         &[]),
-    card("ENDSTEP", &[], &[]),
-    card("EQUATION", &[], &["REMOVE", "REMOVEALL", "REMOVALL"]),
-    card("EXPANSION", &[("TYPE", Any), ("ZERO", Any)], &["DEPENDENCIES", "USER", "POREFLUID"]),
+    card("END STEP", &[], &[]),
+    card("EQUATION", &[], &["REMOVE", "REMOVE ALL", "REMOVALL"]),
+    card("EXPANSION", &[("TYPE", Any), ("ZERO", Any)], &["DEPENDENCIES", "USER", "PORE FLUID"]),
     card("FRICTION",
-        &[("LAGRANGE", Any), ("SLIPTOLERANCE", Any), ("ELASTICSLIP", Any)],
-        &["ROUGH", "TAUMAX", "ANISOTROPIC", "EXPONENTIALDECAY", "DEPENDENCIES", "USER", "SHEARTRACTIONSLOPE", "TESTDATA",
+        &[("LAGRANGE", Any), ("SLIP TOLERANCE", Any), ("ELASTIC SLIP", Any)],
+        &["ROUGH", "TAUMAX", "ANISOTROPIC", "EXPONENTIAL DECAY", "DEPENDENCIES", "USER", "SHEAR TRACTION SLOPE", "TEST DATA",
           "PROPERTIES", "DEPVAR"]),
     card("GAP", &[("ELSET", Any)], &[]),
     card("HEADING", &[("UNSYMM", Any), ("SPARSE", Any)], &[]),
     card("HYPERELASTIC",
-        &[("NEOHOOKE", Flag), ("REDUCEDPOLYNOMIAL", Flag), ("OGDEN", Flag), ("ARRUDA-BOYCE", Flag), ("YEOH", Flag),
-          ("MOONEY-RIVLIN", Flag), ("POLYNOMIAL", Flag), ("N", Any), ("MODULI", Words(&["LONGTERM", "INSTANTANEOUS"]))],
-        &["VANDERWAALS", "MARLOW", "USER", "TESTDATAINPUT", "POISSON", "DEPENDENCIES", "BETA", "TYPE", "PROPERTIES",
+        &[("NEO HOOKE", Flag), ("REDUCED POLYNOMIAL", Flag), ("OGDEN", Flag), ("ARRUDA-BOYCE", Flag), ("YEOH", Flag),
+          ("MOONEY-RIVLIN", Flag), ("POLYNOMIAL", Flag), ("N", Any), ("MODULI", Words(&["LONG TERM", "INSTANTANEOUS"]))],
+        &["VAN DER WAALS", "MARLOW", "USER", "TEST DATA INPUT", "POISSON", "DEPENDENCIES", "BETA", "TYPE", "PROPERTIES",
           "ANISOTROPIC", "FUNG-ANISOTROPIC", "FUNG-ORTHOTROPIC", "HOLZAPFEL"]),
-    card("HYPERFOAM", &[("N", Any), ("MODULI", Words(&["LONGTERM", "INSTANTANEOUS"]))], &["TESTDATAINPUT", "POISSON"]),
-    card("INITIALCONDITIONS",
+    card("HYPERFOAM", &[("N", Any), ("MODULI", Words(&["LONG TERM", "INSTANTANEOUS"]))], &["TEST DATA INPUT", "POISSON"]),
+    card("INITIAL CONDITIONS",
         &[("TYPE", Any), ("USER", Any)],
-        &["FILE", "STEP", "INC", "INTERPOLATE", "SECTIONPOINTS", "GEOSTATIC", "REBAR", "UNBALANCEDSTRESS", "VARIABLE",
-          "NUMBERBACKSTRESSES", "ABSOLUTEEXTERIORTOLERANCE", "DRIVINGELSETS"]),
+        &["FILE", "STEP", "INC", "INTERPOLATE", "SECTION POINTS", "GEOSTATIC", "REBAR", "UNBALANCED STRESS", "VARIABLE",
+          "NUMBER BACKSTRESSES", "ABSOLUTE EXTERIOR TOLERANCE", "DRIVING ELSETS"]),
     card("INSTANCE", &[("NAME", Any), ("PART", Any)], &["LIBRARY", "INSTANCE"]),
-    card("KINEMATIC", &[], &["CYCLICSYMMETRY"]),
-    card("MATERIAL", &[("NAME", Any), ("RTOL", Any), ("SRATEFACTOR", Any), ("STRAINRATEREGULARIZATION", Any)], &[]),
+    card("KINEMATIC", &[], &["CYCLIC SYMMETRY"]),
+    card("MATERIAL", &[("NAME", Any), ("RTOL", Any), ("SRATE FACTOR", Any), ("STRAIN RATE REGULARIZATION", Any)], &[]),
     card("MEMBRANE", &[("ELSET", Any), ("MATERIAL", Any)], &[]),
-    card("MODELCHANGE", &[("TYPE", Any), ("ADD", Any), ("REMOVE", Any), ("CPSET", Any)],
+    card("MODEL CHANGE", &[("TYPE", Any), ("ADD", Any), ("REMOVE", Any), ("CPSET", Any)],
         &["ACTIVATE", "RESTART", "MECHSTRAINTORESIDUAL"]),
     card("MPC", &[], &["USER", "MODE"]),
     card("NODE", &[("NSET", Any), ("SYSTEM", Any), ("INPUT", Any)], &[]),
-    card("NODEPRINT",
-        &[("NSET", Any), FREQUENCY, TOTALS, GLOBAL, ("FREQ", Any), ("FREQUENCYF", Any), ("TIMEPOINTS", Any),
-          ("SUMMARY", Any), ("LASTMODE", Any), ("MODE", Any), ("OUTPUT", Any)],
+    card("NODE PRINT",
+        &[("NSET", Any), FREQUENCY, TOTALS, GLOBAL, ("FREQ", Any), ("FREQUENCYF", Any), ("TIME POINTS", Any),
+          ("SUMMARY", Any), ("LAST MODE", Any), ("MODE", Any), ("OUTPUT", Any)],
         &[]),
     card("NSET",
         &[("NSET", Any), ("ELSET", Any), ("GENERATE", Flag), ("INSTANCE", Any), ("INTERNAL", Flag), ("UNSORTED", Flag),
@@ -149,56 +150,60 @@ const CARDS: &[Card] = &[
     card("ORIENTATION",
         &[("NAME", Any), ("SYSTEM", Words(&["RECTANGULAR", "R", "CYLINDRICAL", "C"])),
           ("DEFINITION", Words(&["COORDINATES"]))],
-        &["LOCALDIRECTIONS"]),
+        &["LOCAL DIRECTIONS"]),
     card("PART", &[("NAME", Any)], &[]),
     card("PLASTIC",
         &[("HARDENING", Any)],
-        &["RATE", "DEPENDENCIES", "DATATYPE", "NUMBERBACKSTRESSES", "PROPERTIES", "SCALESTRESS", "EXTRAPOLATION"]),
-    card("PRE-TENSIONSECTION", &[("SURFACE", Any), ("NODE", Any), ("ELEMENT", Any)], &[]),
-    card("RIGIDBODY",
-        &[("NSET", Any), ("ELSET", Any), ("REFNODE", Any), ("ROTNODE", Any), ("ISOTHERMAL", Any),
+        &["RATE", "DEPENDENCIES", "DATA TYPE", "NUMBER BACKSTRESSES", "PROPERTIES", "SCALESTRESS", "EXTRAPOLATION"]),
+    card("PRE-TENSION SECTION", &[("SURFACE", Any), ("NODE", Any), ("ELEMENT", Any)], &[]),
+    card("REFINE MESH", &[("LIMIT", Any), ("ELSET", Any), ("USER CODE", Any)], &[]),
+    card("RIGID BODY",
+        &[("NSET", Any), ("ELSET", Any), ("REF NODE", Any), ("ROT NODE", Any), ("ISOTHERMAL", Any),
           ("POSITION", Words(&["INPUT"]))],
-        &["PINNSET", "TIENSET", "ANALYTICALSURFACE", "DENSITY", "OFFSET", "NODALTHICKNESS"]),
-    card("SECTIONPRINT",
+        &["PIN NSET", "TIE NSET", "ANALYTICAL SURFACE", "DENSITY", "OFFSET", "NODAL THICKNESS"]),
+    card("SECTION PRINT",
         &[("SURFACE", Any), ("NAME", Any), FREQUENCY, TOTALS, GLOBAL, ("FREQ", Any), ("FREQUENCYF", Any),
-          ("TIMEPOINTS", Any), ("AXES", Any), ("UPDATE", Any)],
+          ("TIME POINTS", Any), ("AXES", Any), ("UPDATE", Any)],
         &[]),
-    card("SOLIDSECTION",
+    card("SOLID SECTION",
         &[("ELSET", Any), ("MATERIAL", Any), ("ORIENTATION", Any), ("CONTROLS", Any), ("OFFSET", Any)],
-        &["NODALTHICKNESS", "COMPOSITE", "LAYUP", "REFNODE", "STACKDIRECTION", "SYMMETRIC"]),
+        &["NODAL THICKNESS", "COMPOSITE", "LAYUP", "REF NODE", "STACK DIRECTION", "SYMMETRIC"]),
     card("SPRING",
         &[("ELSET", Any), ("ORIENTATION", Any), ("NONLINEAR", Flag), ("RTOL", Any)],
-        &["COMPLEXSTIFFNESS", "DEPENDENCIES"]),
+        &["COMPLEX STIFFNESS", "DEPENDENCIES"]),
     card("STATIC",
         &[("DIRECT", Words(&["", "NOSTOP"])), ("SOLVER", Any), ("STABILIZE", Any), ("ALLSDTOL", Any), ("CONTINUE", Any),
           ("FACTOR", Any)],
-        &["RIKS", "TIMERESET", "TOTALTIMEATSTART", "FULLYPLASTIC", "LONGTERM"]),
+        &["RIKS", "TIME RESET", "TOTAL TIME AT START", "FULLY PLASTIC", "LONG TERM"]),
     card("STEP",
         &[("NLGEOM", Words(&["", "YES", "NO"])), ("INC", Count), ("AMPLITUDE", Words(&["RAMP", "STEP"])),
-          ("PERTURBATION", Any), ("NAME", Any), ("UNSYMM", Any), ("EXTRAPOLATION", Any), ("CONVERTSDI", Any),
+          ("PERTURBATION", Any), ("NAME", Any), ("UNSYMM", Any), ("EXTRAPOLATION", Any), ("CONVERT SDI", Any),
           ("SOLVER", Any), ("INCF", Any)],
-        &["CYCLICSYMMETRY"]),
+        &["CYCLIC SYMMETRY"]),
     card("SURFACE",
         &[("NAME", Any), ("TYPE", Any), ("COMBINE", Any), ("CROP", Any), ("INSTANCE", Any), ("INTERNAL", Flag),
-          ("INPUT", Any), ("DEFINITION", Any), ("REGIONTYPE", Any), ("NOTHICKNESS", Any), ("TRIM", Any),
-          ("SCALETHICK", Any), ("PROPERTY", Any), ("MAXRATIO", Any), ("DISCRETIZATION", Any), ("FILLETRADIUS", Any)],
+          ("INPUT", Any), ("DEFINITION", Any), ("REGION TYPE", Any), ("NO THICKNESS", Any), ("TRIM", Any),
+          ("SCALE THICK", Any), ("PROPERTY", Any), ("MAX RATIO", Any), ("DISCRETIZATION", Any), ("FILLET RADIUS", Any)],
         &["OFFSET"]),
-    card("SURFACEBEHAVIOR",
-        &[("PRESSURE-OVERCLOSURE", Any), ("AUGMENTEDLAGRANGE", Any), ("PENALTY", Any), ("DIRECT", Any), ("METHOD", Any)],
-        &["NOSEPARATION", "STIFFNESSBEHAVIOR"]),
-    card("SURFACEINTERACTION",
+    card("SURFACE BEHAVIOR",
+        &[("PRESSURE-OVERCLOSURE", Any), ("AUGMENTED LAGRANGE", Any), ("PENALTY", Any), ("DIRECT", Any), ("METHOD", Any)],
+        &["NO SEPARATION", "STIFFNESS BEHAVIOR"]),
+    card("SURFACE INTERACTION",
         &[("NAME", Any), ("UNSYMM", Any)],
-        &["USER", "DEPVAR", "PROPERTIES", "PADTHICKNESS", "TRACKINGTHICKNESS"]),
+        &["USER", "DEPVAR", "PROPERTIES", "PAD THICKNESS", "TRACKING THICKNESS"]),
     card("TEMPERATURE",
         &[("AMPLITUDE", Any), ("FILE", Any), OP],
-        &["BSTEP", "ESTEP", "BINC", "EINC", "SUBMODEL", "STEP", "DATASET", "USER", "INTERPOLATE", "MIDSIDE", "GLOBALELSET",
-          "TIMEDELAY", "ABSOLUTEEXTERIORTOLERANCE"]),
+        &["BSTEP", "ESTEP", "BINC", "EINC", "SUBMODEL", "STEP", "DATA SET", "USER", "INTERPOLATE", "MIDSIDE", "GLOBAL ELSET",
+          "TIME DELAY", "ABSOLUTE EXTERIOR TOLERANCE"]),
     card("TIE",
-        &[("NAME", Any), ("POSITIONTOLERANCE", Any), ("ADJUST", YES_NO), ("CYCLICSYMMETRY", Flag), ("TYPE", Any),
-          ("NOROTATION", Any), ("NOTHICKNESS", Any), ("CONSTRAINTRATIO", Any)],
-        &["TIEDNSET", "MULTIBODY"]),
+        &[("NAME", Any), ("POSITION TOLERANCE", Any), ("ADJUST", YES_NO), ("CYCLIC SYMMETRY", Flag), ("TYPE", Any),
+          ("NO ROTATION", Any), ("NO THICKNESS", Any), ("CONSTRAINT RATIO", Any)],
+        &["TIED NSET", "MULTIBODY"]),
     card("TRANSFORM", &[("NSET", Any), ("TYPE", Any)], &[]),
 ];
+
+/// The cards that only print: a parameter that they do not have changes no result.
+const PRINTS: [&str; 4] = ["CONTACT PRINT", "EL PRINT", "NODE PRINT", "SECTION PRINT"];
 
 /// What is wrong with a parameter.
 #[derive(Debug)]
@@ -215,18 +220,21 @@ pub(crate) struct Fault {
 
 /// What is wrong with a parameter of a card that is read; nothing for cards that are not.
 ///
-/// `name` is in capitals and without blanks, `value` as it was written.
+/// `keyword` and `name` are in capitals and without blanks, `value` as it was written. A name that is like none that the
+/// card takes is no fault, nor is any name of a card that only prints: CalculiX passes over it, and so it is noted as not
+/// read, see [`not_read`].
 pub(crate) fn judge(keyword: &str, name: &str, value: &str) -> Option<Fault> {
-    let card = CARDS.iter().find(|card| card.keyword == keyword)?;
-    let Some((_, takes)) = card.takes.iter().find(|(known, _)| *known == name) else {
-        return Some(strange(card, name));
+    let card = Card::of(keyword)?;
+    let Some((name, takes)) = card.taken(name) else {
+        return strange(card, name);
     };
+    let keyword = card.keyword;
     let found = compared(value);
     let wanted = match takes {
         Any => return None,
         Flag if found.is_empty() => return None,
         Count if found.parse::<u64>().is_ok_and(|count| count > 0) => return None,
-        Words(words) if words.contains(&found.as_str()) => return None,
+        Words(words) if words.iter().any(|word| is_same(word, &found)) => return None,
         Flag => "it takes no value".to_owned(),
         Count => "it takes a whole number from 1 on".to_owned(),
         Words(words) => {
@@ -235,7 +243,7 @@ pub(crate) fn judge(keyword: &str, name: &str, value: &str) -> Option<Fault> {
         }
     };
     let meant = match takes {
-        Words(words) => closest(&found, words.iter().copied()),
+        Words(words) => nearest(&found, words.iter().copied()),
         _ => None,
     };
     Some(Fault {
@@ -249,18 +257,19 @@ pub(crate) fn judge(keyword: &str, name: &str, value: &str) -> Option<Fault> {
     })
 }
 
-/// A parameter that the card does not take.
-fn strange(card: &Card, name: &str) -> Fault {
-    let (keyword, shown) = (card.keyword, shown(name));
-    let known: Vec<&str> = card.takes.iter().map(|(name, _)| *name).collect();
+/// A parameter that the card does not take; nothing where it may be passed over.
+fn strange(card: &Card, name: &str) -> Option<Fault> {
+    let keyword = card.keyword;
+    let names = || card.takes.iter().map(|(name, _)| *name);
+    let known: Vec<&str> = names().collect();
     let known = match known.is_empty() {
         true => format!("*{keyword} takes no parameters"),
         false => format!("*{keyword} takes {}", known.join(", ")),
     };
-    if name == "INPUT" || card.refused.contains(&name) {
-        return Fault {
+    if name == "INPUT" || card.refused.iter().any(|refused| is_same(refused, name)) {
+        return Some(Fault {
             code: &codes::NOT_BUILT,
-            message: format!("{shown} of *{keyword} is not supported"),
+            message: format!("{} of *{keyword} is not supported", card.spelled(name)),
             remark: match name {
                 "INPUT" => {
                     "write the lines into the deck, or *INCLUDE, INPUT=… below the card".to_owned()
@@ -268,16 +277,70 @@ fn strange(card: &Card, name: &str) -> Fault {
                 _ => "without it the deck means something else".to_owned(),
             },
             known,
-        };
+        });
+    }
+    if PRINTS.contains(&keyword) {
+        return None;
+    }
+    let meant = nearest(name, names().chain(card.refused.iter().copied()))?;
+    Some(Fault {
+        code: &codes::UNKNOWN_KEY,
+        message: format!("*{keyword} has no parameter {}", shown(name)),
+        remark: format!("did you mean {meant}?"),
+        known,
+    })
+}
+
+/// A note on a parameter that nobody has asked for.
+pub(crate) fn not_read(keyword: &str, name: &str) -> String {
+    let Some(card) = Card::of(keyword) else {
+        return format!("{} of *{keyword} is not read", shown(name));
+    };
+    let keyword = card.keyword;
+    if card.taken(name).is_some() {
+        return format!("{} of *{keyword} is not read", card.spelled(name));
     }
     let names = card.takes.iter().map(|(name, _)| *name);
-    let meant = closest(name, names.chain(card.refused.iter().copied()));
-    Fault {
-        code: &codes::UNKNOWN_KEY,
-        message: format!("*{keyword} has no parameter {shown}"),
-        remark: meant.map_or(String::new(), |meant| format!("did you mean {meant}?")),
-        known,
+    let meant = nearest(name, names).map_or(String::new(), |m| format!("; did you mean {m}?"));
+    let name = shown(name);
+    format!("*{keyword} has no parameter {name}: it is not read{meant}")
+}
+
+/// A parameter as manuals write it, with its blanks.
+pub(crate) fn spelled<'n>(keyword: &str, name: &'n str) -> &'n str {
+    Card::of(keyword).map_or(name, |card| card.spelled(name))
+}
+
+impl Card {
+    /// The entry of a keyword without blanks.
+    fn of(keyword: &str) -> Option<&'static Self> {
+        CARDS.iter().find(|card| is_same(card.keyword, keyword))
     }
+
+    /// What a parameter takes, given without blanks, with its name.
+    fn taken(&self, name: &str) -> Option<(&'static str, &'static Takes)> {
+        let found = self.takes.iter().find(|(known, _)| is_same(known, name));
+        found.map(|(known, takes)| (*known, takes))
+    }
+
+    fn spelled<'n>(&self, name: &'n str) -> &'n str {
+        let names = self.takes.iter().map(|(known, _)| *known);
+        let mut names = names.chain(self.refused.iter().copied());
+        names.find(|known| is_same(known, name)).unwrap_or(name)
+    }
+}
+
+/// Whether a word of the tables is this one, which has no blanks.
+fn is_same(known: &str, word: &str) -> bool {
+    known.bytes().filter(|b| *b != b' ').eq(word.bytes())
+}
+
+/// The word of the tables that is like one without blanks.
+fn nearest(word: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
+    let known: Vec<(String, &str)> = known.map(|one| (one.replace(' ', ""), one)).collect();
+    let found = closest(word, known.iter().map(|(compact, _)| compact.as_str()))?;
+    let found = known.iter().find(|(compact, _)| compact == found);
+    found.map(|(_, shown)| *shown)
 }
 
 /// The beginning of a word, for messages.
@@ -292,19 +355,14 @@ mod tests {
 
     #[test]
     fn every_card_that_is_read_has_its_parameters_listed_once() {
-        let compact = |name: &str| name.replace(' ', "");
         let read = KEYWORDS.iter().filter(|one| one.support == Support::Read);
-        let read: Vec<String> = read.map(|one| compact(one.name)).collect();
-        for keyword in read.iter().filter(|keyword| *keyword != "INCLUDE") {
-            let count = CARDS.iter().filter(|card| card.keyword == keyword).count();
+        let read: Vec<&str> = read.map(|one| one.name).collect();
+        for keyword in read.iter().filter(|keyword| **keyword != "INCLUDE") {
+            let count = CARDS.iter().filter(|card| card.keyword == *keyword).count();
             assert_eq!(count, 1, "{keyword}");
         }
         for card in CARDS {
-            assert!(
-                read.iter().any(|one| one == card.keyword),
-                "{}",
-                card.keyword
-            );
+            assert!(read.contains(&card.keyword), "{}", card.keyword);
             let names = || card.takes.iter().map(|(name, _)| name).chain(card.refused);
             for name in names() {
                 assert_eq!(names().filter(|one| *one == name).count(), 1, "{name}");
@@ -333,11 +391,12 @@ mod tests {
     #[test]
     fn every_parameter_of_every_card_is_met_with_a_proposal_where_it_is_misspelt() {
         let mut count = 0;
-        for card in CARDS {
-            let is_known = |name: &String| card.takes.iter().any(|(known, _)| known == name);
+        for card in CARDS.iter().filter(|card| !PRINTS.contains(&card.keyword)) {
+            let keyword = card.keyword.replace(' ', "");
             for (name, _) in card.takes.iter().filter(|(name, _)| name.len() > 3) {
-                for typed in misspelt(name).into_iter().filter(|name| !is_known(name)) {
-                    let fault = judge(card.keyword, &typed, "").unwrap();
+                let others = misspelt(&name.replace(' ', "")).into_iter();
+                for typed in others.filter(|name| card.taken(name).is_none()) {
+                    let fault = judge(&keyword, &typed, "").unwrap();
                     let proposal = fault.remark.starts_with("did you mean ");
                     assert!(proposal, "{} {typed}: {fault:?}", card.keyword);
                     assert_eq!(fault.code.class.exit_code(), 3);
@@ -352,13 +411,15 @@ mod tests {
     fn every_word_of_every_parameter_is_met_with_a_proposal_where_it_is_misspelt() {
         let mut count = 0;
         for card in CARDS {
+            let keyword = card.keyword.replace(' ', "");
             for (name, takes) in card.takes {
                 let Words(words) = takes else { continue };
+                let name = name.replace(' ', "");
                 for word in *words {
-                    assert!(judge(card.keyword, name, &word.to_lowercase()).is_none());
-                    let others = misspelt(word).into_iter();
-                    for typed in others.filter(|typed| !words.contains(&typed.as_str())) {
-                        let fault = judge(card.keyword, name, &typed).unwrap();
+                    assert!(judge(&keyword, &name, &word.to_lowercase()).is_none());
+                    let others = misspelt(&word.replace(' ', "")).into_iter();
+                    for typed in others.filter(|typed| !words.iter().any(|w| is_same(w, typed))) {
+                        let fault = judge(&keyword, &name, &typed).unwrap();
                         assert!(fault.known.starts_with("it takes "), "{fault:?}");
                         count += 1;
                     }
@@ -376,6 +437,9 @@ mod tests {
             ("STEP", "INC", "100"),
             ("CLOAD", "OP", " new "),
             ("NODEFILE", "ANYTHING", "at all"),
+            // like none that the card takes, or of a card that only prints
+            ("CLOAD", "QWERTZ", ""),
+            ("CONTACTPRINT", "SET", "N"),
         ] {
             assert!(
                 judge(keyword, name, value).is_none(),
@@ -400,5 +464,30 @@ mod tests {
             let fault = judge(keyword, name, value).unwrap();
             assert_eq!(fault.remark, remark, "{fault:?}");
         }
+    }
+
+    #[test]
+    fn what_nobody_reads_is_named_as_manuals_write_it() {
+        for (keyword, name, note) in [
+            (
+                "NODEPRINT",
+                "TIMEPOINTS",
+                "TIME POINTS of *NODE PRINT is not read",
+            ),
+            (
+                "CONTACTPRINT",
+                "SET",
+                "*CONTACT PRINT has no parameter SET: it is not read; did you mean NSET?",
+            ),
+            (
+                "CLOAD",
+                "QWERTZ",
+                "*CLOAD has no parameter QWERTZ: it is not read",
+            ),
+        ] {
+            assert_eq!(not_read(keyword, name), note);
+        }
+        assert_eq!(spelled("RIGIDBODY", "REFNODE"), "REF NODE");
+        assert_eq!(spelled("SOLIDSECTION", "NODALTHICKNESS"), "NODAL THICKNESS");
     }
 }

@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub struct Statement {
     /// In capitals, without star and blanks.
     pub keyword: String,
+    /// In capitals, without star, its words apart: for messages.
+    pub title: String,
     /// Where the card stands.
     pub place: Place,
     /// The spaces whose numbers and names it means: see [`super::Directory`].
@@ -84,6 +86,7 @@ impl Statement {
             .map_or_else(Place::nowhere, |row: Row| Place::new(&row.file, row.line));
         Self {
             keyword: card.keyword.clone(),
+            title: card.title.clone(),
             place,
             scope,
             parameters: card.parameters.clone(),
