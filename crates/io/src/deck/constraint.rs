@@ -135,10 +135,9 @@ impl Translation<'_> {
 
     fn rigid_bodies(&mut self) {
         for card in self.cards("RIGIDBODY") {
-            let Some(node) = self.node_of(card, "REFNODE") else {
+            let Some(reference) = self.reference_of(card) else {
                 continue;
             };
-            let reference = self.reference(node, &card.place);
             if card.has("ROTNODE")
                 && let Some(turning) = self.node_of(card, "ROTNODE")
             {
@@ -163,10 +162,29 @@ impl Translation<'_> {
                     on,
                     reference,
                     axes: Directions::ALL,
+                    local: None,
                 };
                 self.constrain(kind, &card.place);
             }
         }
+    }
+
+    /// The reference of a *RIGID BODY: in its REF NODE, or in the mean of its nodes, which nothing but them then moves.
+    fn reference_of(&mut self, card: &Statement) -> Option<Name> {
+        if card.has("REFNODE") {
+            let node = self.node_of(card, "REFNODE")?;
+            return Some(self.reference(node, &card.place));
+        }
+        let of = card.peek("NSET").or(card.peek("ELSET"));
+        let wanted = of.map_or("rigid".to_owned(), |of| format!("rigid-{of}"));
+        let name = Spanned::new(self.fresh(&wanted), card.place.clone());
+        self.case.references.push(Reference {
+            name: name.clone(),
+            position: Position::Mean,
+            rotations: None,
+            place: card.place.clone(),
+        });
+        Some(name)
     }
 
     /// Elements that move as a whole have no material.
@@ -194,14 +212,12 @@ impl Translation<'_> {
 
     fn couplings(&mut self) {
         let mut open: Option<(Name, Name)> = None;
+        let mut local = None;
         let deck = self.deck;
         for card in &deck.statements {
             match card.keyword.as_str() {
                 "COUPLING" => {
-                    if card.has("ORIENTATION") {
-                        let text = "*COUPLING, ORIENTATION is not supported";
-                        self.error(&codes::NOT_BUILT, text, &card.place, "");
-                    }
+                    local = self.axes_of(card);
                     let node = self.node_of(card, "REFNODE");
                     let surface = self.need(card, "SURFACE");
                     let on =
@@ -222,6 +238,7 @@ impl Translation<'_> {
                             on,
                             reference,
                             axes,
+                            local: local.take(),
                         }
                     };
                     self.constrain(kind, &card.place);
@@ -230,6 +247,37 @@ impl Translation<'_> {
                 _ => {}
             }
         }
+    }
+
+    /// The axes of an *ORIENTATION that a coupling names.
+    fn axes_of(&mut self, card: &Statement) -> Option<AxesSystem> {
+        let name = card.get("ORIENTATION")?;
+        let is_named = |one: &&Statement| one.peek("NAME").map(compared) == Some(compared(name));
+        let Some(of) = self.cards("ORIENTATION").find(is_named) else {
+            let text = format!("there is no orientation `{name}`");
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+            return None;
+        };
+        let cylindrical = of.get("SYSTEM").map(compared);
+        let cylindrical = cylindrical.is_some_and(|system| system.starts_with('C'));
+        let mut rows = of.rows();
+        let row = rows.next().unwrap_or_default();
+        let [a, b, c, d, e, f] = self.reals(&row);
+        if rows.next().is_some_and(|row| !row.is_empty()) {
+            let text = "*COUPLING with an *ORIENTATION that is turned is not supported";
+            let remark = "write the axes as they are after the turn";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
+        }
+        Some(match cylindrical {
+            true => AxesSystem::Cylindrical {
+                from: [a, b, c],
+                to: [d, e, f],
+            },
+            false => AxesSystem::Rectangular {
+                x: [a, b, c],
+                xy: [d, e, f],
+            },
+        })
     }
 
     /// The directions of *KINEMATIC: all, or those of its lines.
@@ -482,40 +530,82 @@ impl Translation<'_> {
                     }
                     terms.extend(row.chunks(3).map(<[_]>::to_vec));
                 }
-                let summands: Vec<Summand> = (terms.iter())
-                    .flat_map(|term| self.summands(card, term))
-                    .collect();
-                if !summands.is_empty() {
-                    let kind = ConstraintKind::Equation {
-                        terms: summands,
-                        rhs: 0.0,
-                    };
-                    self.constrain(kind, &card.place);
+                // nodes with axes of their own make an equation each
+                let several = self.several_axes(card, &terms);
+                for only in several.map_or(vec![None], |count| (0..count).map(Some).collect()) {
+                    let summands: Vec<Summand> = (terms.iter())
+                        .flat_map(|term| self.summands(card, term, only))
+                        .collect();
+                    if !summands.is_empty() {
+                        let kind = ConstraintKind::Equation {
+                            terms: summands,
+                            rhs: 0.0,
+                        };
+                        self.constrain(kind, &card.place);
+                    }
                 }
             }
         }
     }
 
-    /// A term of an equation: one summand, or those of a local axis.
-    fn summands(&mut self, card: &Statement, term: &[Field<'_>]) -> Vec<Summand> {
-        let targets = self.targets(card, term.first(), Kind::Nodes);
+    /// How many nodes the sets of an equation have, where some of them have local axes.
+    fn several_axes(&self, card: &Statement, terms: &[Vec<Field<'_>>]) -> Option<usize> {
+        if self.axes.is_empty() {
+            return None;
+        }
+        let directory = &self.deck.directory;
+        let labels = |term: &Vec<Field<'_>>| -> Vec<u64> {
+            let name = term.first().map_or("", |field| field.text);
+            let mut spaces = directory.spaces(card.scope).iter();
+            let set = spaces.find_map(|&space| directory.set(space, Kind::Nodes, name));
+            set.map_or_else(Vec::new, |set| self.labels(&Target::Set(set.to_owned())))
+        };
+        let sets: Vec<Vec<u64>> = terms.iter().map(labels).collect();
+        let turned = |set: &Vec<u64>| set.iter().any(|label| self.axes.contains_key(label));
+        let count = sets.iter().map(Vec::len).max().unwrap_or(0);
+        (count > 1 && sets.iter().any(turned)).then_some(count)
+    }
+
+    /// A term of an equation: one summand, or those of a local axis. Of a set of several nodes that of one, where there are
+    /// to be equations of single nodes.
+    fn summands(
+        &mut self,
+        card: &Statement,
+        term: &[Field<'_>],
+        only: Option<usize>,
+    ) -> Vec<Summand> {
+        let mut targets = self.targets(card, term.first(), Kind::Nodes);
+        if let Some(number) = only {
+            let labels: Vec<u64> = targets.iter().flat_map(|t| self.labels(t)).collect();
+            let one = match labels.as_slice() {
+                [one] => Some(*one),
+                all => all.get(number).copied(),
+            };
+            targets = one.map(Target::One).into_iter().collect();
+            if one.is_none() && !labels.is_empty() {
+                let text = "the sets of this equation differ in their numbers of nodes";
+                self.error(&codes::WRONG_LENGTH, text, &card.place, "");
+            }
+        }
         let component = self.count(term.get(1), 0) as usize;
         let coefficient = self.real(term.get(2));
         let place = term
             .first()
             .map_or(card.place.clone(), |field| field.place());
-        let axis = match component {
-            1..=3 => component - 1,
+        let carrier = self.carrier_of(&targets).cloned();
+        let component = match (component, &carrier) {
+            (1..=3, Some(carrier)) if carrier.turns => component + 2,
+            (1..=3, _) | (4..=6, Some(_)) => component - 1,
             _ => {
                 let text = format!("*EQUATION of degree of freedom {component} is not supported");
-                self.error(&codes::NOT_BUILT, text, &place, "");
+                let remark = "1 to 3; 4 to 6 of a node that moves a rigid body or a coupling";
+                self.error(&codes::NOT_BUILT, text, &place, remark);
                 return Vec::new();
             }
         };
-        if let Some(carrier) = self.carrier_of(&targets) {
-            let component = axis + if carrier.turns { 3 } else { 0 };
+        if let Some(carrier) = carrier {
             return vec![Summand {
-                on: Spanned::new(carrier.name.clone(), place.clone()),
+                on: Spanned::new(carrier.name, place.clone()),
                 component: Spanned::new(component, place),
                 coefficient,
             }];
@@ -532,11 +622,7 @@ impl Translation<'_> {
             .iter()
             .find_map(|label| self.axes.get(label))
             .copied();
-        let direction = turned.map_or_else(|| unit(axis), |axes| axes[axis]);
-        if turned.is_some() && labels.len() > 1 {
-            let text = "an equation of a set of nodes with local axes is not supported";
-            self.error(&codes::NOT_BUILT, text, &place, "name the nodes one by one");
-        }
+        let direction = turned.map_or_else(|| unit(component), |axes| axes[component]);
         along(on, direction, coefficient, self.ndim())
     }
 }

@@ -102,6 +102,7 @@ impl Translation<'_> {
         self.time(cards, &mut step);
         let mut lines = Vec::new();
         if number == 0 {
+            self.free_rigid_bodies(&mut step);
             for card in self.cards("BOUNDARY") {
                 self.boundary(card, &mut lines);
             }
@@ -141,6 +142,7 @@ impl Translation<'_> {
                 "NODEPRINT" | "ELPRINT" | "CONTACTPRINT" | "SECTIONPRINT" => {
                     self.print(card, &mut step)
                 }
+                "REFINEMESH" => self.unrefined(card),
                 _ => {}
             }
         }
@@ -191,6 +193,32 @@ impl Translation<'_> {
                 count_max: limit,
             }
         };
+    }
+
+    /// Rigid bodies of elements are free in decks until something holds them; in cases they are held.
+    fn free_rigid_bodies(&mut self, step: &mut Step) {
+        let components: &[usize] = match self.ndim() {
+            3 => &[0, 1, 2, 3, 4, 5],
+            _ => &[0, 1, 5],
+        };
+        let (u, rot) = directions(components);
+        let rigid = self.case.bodies.iter().filter(|body| body.rigid);
+        let references: BTreeSet<&str> = (rigid.clone())
+            .filter_map(|body| body.reference.as_ref())
+            .map(|name| name.value.as_str())
+            .collect();
+        for name in references {
+            let mut of = rigid.clone().filter_map(|body| body.reference.as_ref());
+            let Some(on) = of.find(|of| of.value == name).cloned() else {
+                continue;
+            };
+            step.frees.push(Free {
+                place: on.place.clone(),
+                on,
+                u,
+                rot,
+            });
+        }
     }
 
     /// Initial increment, period, smallest and largest increment of *STATIC; nothing where they contradict each other,

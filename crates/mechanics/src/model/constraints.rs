@@ -17,7 +17,7 @@ use crate::connector::{
 use crate::solve::{Motion, Step};
 use crate::system::{
     Dof, DofName, Elimination, FieldId, Idealisation, Layout, NO_DOF, Relation, RigidBody, Term,
-    interpolate,
+    Turn, interpolate,
 };
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::{Carrier, RigidId};
@@ -140,6 +140,14 @@ impl Followers<'_> {
                     free.retain(|_| !rigid.get(*carrier as usize).is_some_and(|r| *r));
                     ties.free.extend(free);
                 }
+                ConstraintKind::KinematicAlong { nodes, carrier } => {
+                    elimination.guide(&self.mesh.points, nodes.iter().map(|n| n.0), *carrier);
+                    elimination.pull(*carrier);
+                    if !rigid.get(*carrier as usize).is_some_and(|r| *r) {
+                        ties.free
+                            .extend(self.moved_along(layout, &references, nodes, *carrier));
+                    }
+                }
                 ConstraintKind::Distributing { carrier, .. }
                 | ConstraintKind::Twist { carrier, .. } => elimination.pull(*carrier),
                 _ => {}
@@ -193,15 +201,34 @@ impl Followers<'_> {
 
     /// Where the carriers are at the start.
     fn references(&self, nodes: &[BTreeSet<NodeId>]) -> Vec<Vec3> {
-        let place = |(carrier, nodes): (&CarrierPart, &BTreeSet<NodeId>)| {
+        let mean = |nodes: &BTreeSet<NodeId>| {
             let points = nodes
                 .iter()
                 .filter_map(|&n| self.mesh.points.get(n as usize));
-            let sum: Vec3 = points.copied().sum();
-            let mean = sum / nodes.len().max(1) as f64;
-            carrier.at.unwrap_or(mean)
+            points.copied().sum::<Vec3>() / nodes.len().max(1) as f64
         };
-        self.carriers.iter().zip(nodes).map(place).collect()
+        let place = |(carrier, (part, nodes)): (RigidId, (&CarrierPart, &BTreeSet<NodeId>))| {
+            part.at.unwrap_or_else(|| match nodes.is_empty() {
+                true => mean(&self.followers(carrier)),
+                false => mean(nodes),
+            })
+        };
+        (0..)
+            .zip(self.carriers.iter().zip(nodes))
+            .map(place)
+            .collect()
+    }
+
+    /// The nodes that follow a carrier by a coupling, or that it follows.
+    fn followers(&self, wanted: RigidId) -> BTreeSet<NodeId> {
+        let of = |constraint: &&ConstraintPart| match &constraint.kind {
+            ConstraintKind::Kinematic { carrier, .. }
+            | ConstraintKind::KinematicAlong { carrier, .. }
+            | ConstraintKind::Distributing { carrier, .. } => *carrier == wanted,
+            _ => false,
+        };
+        let couplings = self.constraints.iter().filter(of);
+        couplings.flat_map(|one| one.kind.nodes()).collect()
     }
 
     fn ties(&self, layout: &Layout, rigid: &[bool]) -> Ties {
@@ -224,6 +251,11 @@ impl Followers<'_> {
                     mark(&mut ties.followed, *carrier);
                     mark(&mut ties.placed, *carrier);
                     ties.nodes.extend(nodes);
+                }
+                ConstraintKind::KinematicAlong { nodes, carrier } => {
+                    mark(&mut ties.followed, *carrier);
+                    mark(&mut ties.placed, *carrier);
+                    ties.nodes.extend(nodes.iter().map(|n| n.0));
                 }
                 ConstraintKind::Distributing { nodes, carrier } => {
                     mark(&mut ties.followed, *carrier);
@@ -293,6 +325,35 @@ impl Followers<'_> {
             };
             arms().any(moves)
         };
+        let about = (0..3)
+            .filter(|&c| turns(c))
+            .map(|c| layout.rotation(carrier, c));
+        along.chain(about).filter(|&d| d != NO_DOF).collect()
+    }
+
+    /// The components of a carrier that move a node along its direction.
+    fn moved_along(
+        &self,
+        layout: &Layout,
+        references: &[Vec3],
+        nodes: &[(NodeId, Vec3)],
+        carrier: RigidId,
+    ) -> Vec<Dof> {
+        let at = references.get(carrier as usize).copied();
+        let at = at.unwrap_or_default();
+        let arms = || {
+            let arm = |&(node, along): &(NodeId, Vec3)| {
+                Some((*self.mesh.points.get(node as usize)? - at, along))
+            };
+            nodes.iter().filter_map(arm)
+        };
+        let extent = arms().fold(0.0, |m: f64, (a, _)| m.max(a.max_abs()));
+        let moves = |axis: usize| arms().any(|(_, along)| along[axis].abs() > STILL);
+        // along · (θ × a) = θ · (a × along)
+        let turns = |about: usize| arms().any(|(a, d)| a.cross(d)[about].abs() > STILL * extent);
+        let along = (0..3)
+            .filter(|&c| moves(c))
+            .map(|c| layout.translation(carrier, c));
         let about = (0..3)
             .filter(|&c| turns(c))
             .map(|c| layout.rotation(carrier, c));
@@ -449,6 +510,25 @@ impl Followers<'_> {
                         row.add(Column::Dof(course), -rhs / (to * scale));
                     }
                     rows.push(row);
+                }
+                ConstraintKind::KinematicAlong { nodes, carrier } => {
+                    for &(node, along) in nodes {
+                        let mut row = new();
+                        for axis in (0..layout.ndim()).filter(|&axis| along[axis] != 0.0) {
+                            add(&mut row, layout.node(node, axis), along[axis]);
+                            let translation = layout.translation(*carrier, axis);
+                            row.add(Column::Dof(translation), -along[axis]);
+                            if !still(*carrier) {
+                                let turn = Turn {
+                                    node,
+                                    axis,
+                                    carrier: *carrier,
+                                };
+                                row.add(Column::Turn(turn), -along[axis]);
+                            }
+                        }
+                        rows.push(row);
+                    }
                 }
                 ConstraintKind::Equal { nodes, axes } => {
                     let nodes = distinct(nodes);

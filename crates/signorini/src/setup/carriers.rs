@@ -29,6 +29,7 @@ impl Carriers {
             let at = match one.position {
                 Position::At(point) => Some(Vec3::from(point)),
                 Position::Node(label) => names.point(label),
+                Position::Mean => None,
             };
             if let (None, Position::Node(label)) = (at, one.position) {
                 let message = format!("the mesh has no node {label}");

@@ -7,7 +7,7 @@ use super::quoted;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use signorini_io::case::{
-    self, Case, ConstraintKind, Directions, Name, Spring, SpringEnds, Summand,
+    self, AxesSystem, Case, ConstraintKind, Directions, Name, Spring, SpringEnds, Summand,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::connector::SpringLaw;
@@ -315,11 +315,22 @@ fn of_nodes(
             on,
             reference,
             axes: directions,
-        } => Kind::Kinematic {
-            nodes: names.nodes(on, found)?,
-            carrier: carriers.get(reference)?,
-            axes: axes(*directions, ndim),
-        },
+            local,
+        } => {
+            let (nodes, carrier) = (names.nodes(on, found)?, carriers.get(reference)?);
+            let axes = axes(*directions, ndim);
+            match local.filter(|_| axes.iter().take(ndim).any(|follows| !follows)) {
+                Some(system) => Kind::KinematicAlong {
+                    nodes: along(&nodes, &system, axes, (on, names), found)?,
+                    carrier,
+                },
+                None => Kind::Kinematic {
+                    nodes,
+                    carrier,
+                    axes,
+                },
+            }
+        }
         ConstraintKind::Distributing { on, reference } => Kind::Distributing {
             nodes: names.weighted(on, found)?,
             carrier: carriers.get(reference)?,
@@ -335,6 +346,33 @@ fn of_nodes(
             axes: axes(*directions, ndim),
         },
     })
+}
+
+/// The nodes with the local axes along which they follow, one after the other.
+fn along(
+    nodes: &[NodeId],
+    system: &AxesSystem,
+    axes: [bool; 3],
+    (on, names): (&Name, &Names<'_>),
+    found: &mut Diagnostics,
+) -> Option<Vec<(NodeId, Vec3)>> {
+    let mut all = Vec::with_capacity(nodes.len());
+    for &node in nodes {
+        let Some(local) = system.at(names.place(node).unwrap_or_default()) else {
+            let message = format!(
+                "the axes of the coupling of {} have no direction at node {}",
+                quoted(on),
+                names.label(node)
+            );
+            let message = Diagnostic::error(&codes::BAD_CONSTRAINT, message);
+            let help = "x and xy must not be parallel, from and to not be one point";
+            found.push(message.at(&on.place, "").help(help));
+            return None;
+        };
+        let follows = local.into_iter().zip(axes).filter(|(_, follows)| *follows);
+        all.extend(follows.map(|(axis, _)| (node, axis)));
+    }
+    Some(all)
 }
 
 /// The nodes of a set of two.

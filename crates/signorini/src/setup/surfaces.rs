@@ -31,6 +31,9 @@ impl Surfaces {
             }
             let moved = one.reference.as_ref().and_then(|name| carriers.get(name));
             let at = moved.and_then(|c| carriers.place(c));
+            if let (Some(reference), Some(_), None) = (&one.reference, moved, at) {
+                found.push(nowhere(reference, &one.name));
+            }
             let ntan = case.model.space.value.ndim() - 1;
             let mount = moved.map_or(Mount::fixed(ntan), |body| {
                 Mount::on(ntan, body, at.unwrap_or_default())
@@ -53,6 +56,17 @@ impl Surfaces {
     pub fn get(&self, name: &Name) -> Option<Option<Arc<dyn ContactSurface>>> {
         self.0.get(&name.value).cloned()
     }
+}
+
+/// A reference of a surface that is in the mean of nodes: nobody could say how far from it the surface is.
+fn nowhere(reference: &Name, surface: &Name) -> Diagnostic {
+    let message = format!(
+        "surface {} moves with {}, which has no place of its own",
+        quoted(surface),
+        quoted(reference)
+    );
+    let message = Diagnostic::error(&codes::MISSING, message).at(&reference.place, "named here");
+    message.help("write  at = [x, y, z]  in the reference")
 }
 
 /// What to change about a surface that cannot be made.

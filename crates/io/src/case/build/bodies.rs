@@ -413,7 +413,7 @@ impl Builder<'_> {
         };
         // what a kind must have, and what it may
         let (must, may): (&[&str], &[&str]) = match kind.value.as_str() {
-            "kinematic" => (&["reference"], &["dofs"]),
+            "kinematic" => (&["reference"], &["dofs", "local"]),
             "distributing" => (&["reference"], &[]),
             "twist" => (&["reference"], &["axis"]),
             "pretension" => (&["reference"], &["normal"]),
@@ -422,9 +422,10 @@ impl Builder<'_> {
             "distance" => (&[], &["most"]),
             _ => (&[], &[]),
         };
-        const KEYS: [&str; 8] = [
+        const KEYS: [&str; 9] = [
             "reference",
             "dofs",
+            "local",
             "most",
             "normal",
             "with",
@@ -446,6 +447,9 @@ impl Builder<'_> {
                 on,
                 reference,
                 axes,
+                local: fields
+                    .has("local")
+                    .then(|| self.axes_system(fields.table("local"))),
             },
             "distributing" => ConstraintKind::Distributing { on, reference },
             "plane" => ConstraintKind::Plane { on },

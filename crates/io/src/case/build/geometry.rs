@@ -230,8 +230,17 @@ impl Builder<'_> {
     }
 
     pub(super) fn local_axes(&mut self, fields: Fields<'_>, place: Place) -> LocalAxes {
+        LocalAxes {
+            set: fields.text("set"),
+            system: self.axes_system(fields),
+            place,
+        }
+    }
+
+    /// How local axes lie.
+    pub(super) fn axes_system(&mut self, fields: Fields<'_>) -> AxesSystem {
         let mut vector = |key| self.vector(fields, key).unwrap_or_default();
-        let system = if fields.has("x") {
+        if fields.has("x") {
             AxesSystem::Rectangular {
                 x: vector("x"),
                 xy: vector("xy"),
@@ -241,11 +250,6 @@ impl Builder<'_> {
                 from: vector("from"),
                 to: vector("to"),
             }
-        };
-        LocalAxes {
-            set: fields.text("set"),
-            system,
-            place,
         }
     }
 
@@ -257,7 +261,8 @@ impl Builder<'_> {
     ) -> Reference {
         let position = match fields.count_if("node") {
             Some(node) => Position::Node(node.value),
-            None => Position::At(self.vector(fields, "at").unwrap_or_default()),
+            None if fields.has("at") => Position::At(self.vector(fields, "at").unwrap_or_default()),
+            None => Position::Mean,
         };
         Reference {
             name,

@@ -1,6 +1,6 @@
 //! Materials, bodies, springs, constraints.
 
-use super::{Directions, Name, Space};
+use super::{AxesSystem, Directions, Name, Space};
 use crate::diagnostic::{Place, Spanned};
 
 /// How many quadrature points an element has.
@@ -275,6 +275,8 @@ pub enum ConstraintKind {
         reference: Name,
         /// The directions.
         axes: Directions,
+        /// The axes that these are along, at the place of each node; absent: those of the model.
+        local: Option<AxesSystem>,
     },
     /// The reference follows the mean motion of the nodes, which stay free to deform.
     Distributing {

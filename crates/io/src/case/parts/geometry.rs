@@ -254,6 +254,8 @@ pub enum Position {
     At([f64; 3]),
     /// Where the node of this number is.
     Node(u64),
+    /// In the mean of the nodes that move with it, or that it follows.
+    Mean,
 }
 
 /// A side of an element.

@@ -83,20 +83,24 @@ fn region(region: &Region) -> Entries {
 }
 
 pub(super) fn local_axes(one: &LocalAxes) -> Entries {
-    let set = ("set", (&one.set.value).into());
-    match &one.system {
-        AxesSystem::Rectangular { x, xy } => vec![set, ("x", x.into()), ("xy", xy.into())],
-        AxesSystem::Cylindrical { from, to } => {
-            vec![set, ("from", from.into()), ("to", to.into())]
-        }
+    let mut entries = axes_system(&one.system);
+    entries.insert(0, ("set", (&one.set.value).into()));
+    entries
+}
+
+fn axes_system(system: &AxesSystem) -> Entries {
+    match system {
+        AxesSystem::Rectangular { x, xy } => vec![("x", x.into()), ("xy", xy.into())],
+        AxesSystem::Cylindrical { from, to } => vec![("from", from.into()), ("to", to.into())],
     }
 }
 
 pub(super) fn reference(one: &Reference) -> Entries {
-    let mut entries: Entries = vec![match &one.position {
-        Position::At(point) => ("at", point.into()),
-        Position::Node(node) => ("node", (*node).into()),
-    }];
+    let mut entries: Entries = match &one.position {
+        Position::At(point) => vec![("at", point.into())],
+        Position::Node(node) => vec![("node", (*node).into())],
+        Position::Mean => Vec::new(),
+    };
     entries.extend(one.rotations.map(|node| ("rotations", node.into())));
     entries
 }
@@ -280,10 +284,13 @@ pub(super) fn constraint(constraint: &Constraint) -> Entries {
             on,
             reference,
             axes,
+            local,
         } => {
             let mut entries = of_kind("kinematic", on);
             entries.push(("reference", (&reference.value).into()));
             entries.push(("dofs", self::axes(*axes)));
+            let local = local.as_ref().map(axes_system);
+            entries.extend(local.map(|local| ("local", Value::Table(local))));
             entries
         }
         ConstraintKind::Distributing { on, reference } => {

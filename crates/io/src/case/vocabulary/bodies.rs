@@ -240,6 +240,7 @@ pub(super) static CONSTRAINT: Table = Table {
             ]),
             "the directions, of kinematic and equal: \"all\" or a list of \"x\", \"y\", \"z\"",
         ),
+        key("local", Shape::Table(&LOCAL), LOCAL.doc).hints(&["axes", "orientation"]),
         key(
             "most",
             POSITIVE,
@@ -262,12 +263,42 @@ pub(super) static CONSTRAINT: Table = Table {
         Rule::Needs("on", "kind"),
         Rule::Needs("reference", "kind"),
         Rule::Needs("dofs", "kind"),
+        Rule::Needs("local", "dofs"),
         Rule::Needs("most", "kind"),
         Rule::Needs("normal", "kind"),
         Rule::Needs("with", "kind"),
         Rule::Needs("sectors", "kind"),
         Rule::Needs("point", "kind"),
         Rule::Needs("axis", "kind"),
+    ],
+};
+static LOCAL: Table = Table {
+    heading: "[constraint.local]",
+    doc: "axes that the directions of kinematic are along, at the place of each node: two vectors, or a cylindrical system",
+    keys: &[
+        key(
+            "x",
+            VECTOR,
+            "a vector along the first axis, the same everywhere",
+        ),
+        key(
+            "xy",
+            VECTOR,
+            "a vector in the plane of the first and the second",
+        ),
+        key(
+            "from",
+            VECTOR,
+            "a point of the axis of a cylindrical system: x is radial, y circumferential, z along the axis",
+        ),
+        key("to", VECTOR, "another one"),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["x", "from"]),
+        Rule::Needs("x", "xy"),
+        Rule::Needs("xy", "x"),
+        Rule::Needs("from", "to"),
+        Rule::Needs("to", "from"),
     ],
 };
 /// Displacements along, and rotations about the axes.

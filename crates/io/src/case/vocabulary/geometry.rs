@@ -103,7 +103,8 @@ pub(super) static SET: Table = Table {
 
 pub(super) static REFERENCE: Table = Table {
     heading: "[reference]",
-    doc: "named points with translations and rotations of their own",
+    doc: "named points with translations and rotations of their own; without `at` and `node` in the mean of the nodes \
+          that move with it",
     keys: &[
         key("at", VECTOR, "where it is at the start").hints(&["point", "position"]),
         key("node", ID, "the node where it is at the start"),
@@ -113,7 +114,7 @@ pub(super) static REFERENCE: Table = Table {
             "a node that stands for its rotations where displacements of nodes are printed",
         ),
     ],
-    rules: &[Rule::ExactlyOne(&["at", "node"])],
+    rules: &[Rule::AtMostOne(&["at", "node"])],
 };
 
 pub(super) static AXES: Table = Table {

@@ -1,7 +1,7 @@
 //! Constraints between nodes.
 
 use super::*;
-use crate::case::{ConstraintKind, Geometry, Motion, SetContent};
+use crate::case::{AxesSystem, ConstraintKind, Geometry, Motion, Position, SetContent};
 use crate::deck::load::vector;
 
 #[test]
@@ -99,4 +99,96 @@ fn sectors_and_distributing_couplings_become_constraints() {
             ..
         }
     )));
+}
+
+#[test]
+fn a_rigid_body_without_a_reference_node_moves_about_the_mean_of_its_nodes() {
+    let of_nodes = "*NODE\n9, 5., 5., 5.\n*RIGID BODY, NSET=TOP, ROT NODE=9\n*STEP\n*STATIC\n\
+                    *CLOAD\n9, 3, 10.\n*END STEP\n";
+    let case = self::case(&cube("C3D8", of_nodes));
+    let [reference] = case.references.as_slice() else {
+        panic!("{:?}", case.references);
+    };
+    assert_eq!(reference.position, Position::Mean);
+    assert_eq!(reference.rotations, Some(9));
+    assert_eq!(case.steps[0].loads[0].on, reference.name);
+    assert_eq!(
+        case.steps[0].loads[0].kind,
+        vector("moment", [0.0, 0.0, 10.0])
+    );
+    // elements of a rigid body are free in every way until something holds them
+    let more = "*NODE\n9,0,0,2\n10,1,0,2\n11,1,1,2\n12,0,1,2\n*ELEMENT, TYPE=C3D8, ELSET=CAP\n2,5,6,7,8,9,10,11,12\n";
+    let of_elements = format!("{more}*RIGID BODY, ELSET=CAP\n{STEP}");
+    let case = self::case(&cube("C3D8", &of_elements));
+    let body = case.bodies.iter().find(|body| body.rigid).unwrap();
+    assert_eq!(body.reference, Some(case.references[0].name.clone()));
+    let free = &case.steps[0].frees[0];
+    assert_eq!(free.on, case.references[0].name);
+    assert_eq!((free.u.xyz, free.rot.xyz), ([true; 3], [true; 3]));
+}
+
+#[test]
+fn couplings_follow_along_the_axes_of_an_orientation() {
+    let axes = "*ORIENTATION, NAME=O, SYSTEM=RECTANGULAR\n1., 1., 0., -1., 1., 0.\n";
+    let cards = format!(
+        "*NODE\n9, 0.5, 0.5, 1.\n{axes}*COUPLING, REF NODE=9, SURFACE=LID, CONSTRAINT NAME=C, ORIENTATION=O\n\
+         *KINEMATIC\n2, 2\n{STEP}"
+    );
+    let case = self::case(&cube("C3D8", &cards));
+    let ConstraintKind::Kinematic { axes, local, .. } = &case.constraints[0].kind else {
+        panic!("{:?}", case.constraints);
+    };
+    assert_eq!(axes.xyz, [false, true, false]);
+    assert_eq!(
+        *local,
+        Some(AxesSystem::Rectangular {
+            x: [1.0, 1.0, 0.0],
+            xy: [-1.0, 1.0, 0.0],
+        })
+    );
+    let text = refused(&cube(
+        "C3D8",
+        &cards.replace("ORIENTATION=O\n", "ORIENTATION=P\n"),
+    ));
+    assert!(text.contains("there is no orientation `P`"), "{text}");
+}
+
+#[test]
+fn equations_of_sets_with_local_axes_are_those_of_their_nodes() {
+    let cards = format!(
+        "*TRANSFORM, NSET=TOP, TYPE=C\n0., 0., 0., 0., 0., 1.\n*EQUATION\n2\nTOP, 1, 1., BASE, 1, -2.\n{STEP}"
+    );
+    let case = self::case(&cube("C3D8", &cards));
+    let equations: Vec<_> = (case.constraints.iter())
+        .filter_map(|one| match &one.kind {
+            ConstraintKind::Equation { terms, .. } => Some(terms),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(equations.len(), 4);
+    // node 7 at (1, 1): its radius lies between x and y; the other side has the axes of the model
+    let parts: Vec<f64> = equations[2].iter().map(|term| term.coefficient).collect();
+    let diagonal = std::f64::consts::FRAC_1_SQRT_2;
+    assert_eq!(parts.len(), 3);
+    for (found, wanted) in parts.iter().zip([diagonal, diagonal, -2.0]) {
+        assert!((found - wanted).abs() < 1e-12, "{parts:?}");
+    }
+    let uneven = cards.replace("BASE, 1", "PAIR, 1");
+    let uneven = format!("*NSET, NSET=PAIR\n1, 2\n{uneven}");
+    assert!(refused(&cube("C3D8", &uneven)).contains("numbers of nodes"));
+}
+
+#[test]
+fn equations_take_rotations_of_what_moves_a_rigid_body() {
+    let cards = format!(
+        "*NODE\n9, 5., 5., 5.\n*RIGID BODY, NSET=TOP, REF NODE=9\n*EQUATION\n2\n9, 6, 1., 1, 1, -1.\n{STEP}"
+    );
+    let case = self::case(&cube("C3D8", &cards));
+    let terms = case.constraints.iter().find_map(|one| match &one.kind {
+        ConstraintKind::Equation { terms, .. } => Some(terms.clone()),
+        _ => None,
+    });
+    assert_eq!(terms.unwrap()[0].component.value, 5);
+    let text = refused(&cube("C3D8", &format!("*EQUATION\n1\n5, 6, 1.\n{STEP}")));
+    assert!(text.contains("degree of freedom 6"), "{text}");
 }

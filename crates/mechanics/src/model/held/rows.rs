@@ -71,6 +71,13 @@ impl Held<'_> {
                         self.follows(node, *carrier, *axes);
                     }
                 }
+                ConstraintKind::KinematicAlong { nodes, carrier } => {
+                    for &(node, along) in nodes {
+                        if let Some(unit) = self.unit(node) {
+                            self.ties_along(unit, *carrier, node, along);
+                        }
+                    }
+                }
                 ConstraintKind::Distributing { nodes, carrier } => {
                     self.distributing(nodes, *carrier);
                 }
@@ -232,18 +239,21 @@ impl Held<'_> {
     }
 
     fn ties(&mut self, unit: usize, carrier: RigidId, node: NodeId, axes: [bool; 3]) {
+        for axis in (0..3).filter(|&axis| axes[axis]) {
+            self.ties_along(unit, carrier, node, Vec3::unit(axis));
+        }
+    }
+
+    fn ties_along(&mut self, unit: usize, carrier: RigidId, node: NodeId, along: Vec3) {
         let Some(other) = self.carrier(carrier) else {
             return;
         };
         let at = self.point(node);
-        for axis in (0..3).filter(|&axis| axes[axis]) {
-            let along = Vec3::unit(axis);
-            let row = vec![
-                (unit, self.moves(unit, at, along)),
-                (other, self.moves(other, at, along * -1.0)),
-            ];
-            self.rows.push(row);
-        }
+        let row = vec![
+            (unit, self.moves(unit, at, along)),
+            (other, self.moves(other, at, along * -1.0)),
+        ];
+        self.rows.push(row);
     }
 
     /// The carrier has the mean displacement of the nodes and their mean rotation: `Σ w (u − u_c) = 0` and

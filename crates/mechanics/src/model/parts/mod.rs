@@ -157,7 +157,7 @@ impl BodyKind {
 pub struct CarrierPart {
     /// Its name: that of the reference, or of the rigid body whose own it is.
     pub name: String,
-    /// Where it is; `None`: in the mean of the nodes of its rigid bodies.
+    /// Where it is; `None`: in the mean of the nodes of its rigid bodies, or of those of its couplings.
     pub at: Option<Vec3>,
 }
 
@@ -218,6 +218,13 @@ pub enum ConstraintKind {
         /// The directions.
         axes: [bool; 3],
     },
+    /// Each node follows the carrier as a rigid body does along a direction of its own, a unit vector that stays as it is.
+    KinematicAlong {
+        /// The nodes with their directions; a node may have several.
+        nodes: Vec<(NodeId, Vec3)>,
+        /// What they follow.
+        carrier: RigidId,
+    },
     /// The carrier follows the weighted mean motion of the nodes, which stay free to deform.
     Distributing {
         /// The nodes with positive weights.
@@ -266,6 +273,7 @@ impl ConstraintKind {
                 terms.iter().filter_map(node).collect()
             }
             Self::Distributing { nodes, .. } => nodes.iter().map(|(node, _)| *node).collect(),
+            Self::KinematicAlong { nodes, .. } => nodes.iter().map(|(node, _)| *node).collect(),
             Self::Distance { nodes, .. } => nodes.to_vec(),
             Self::Equal { nodes, .. }
             | Self::Kinematic { nodes, .. }

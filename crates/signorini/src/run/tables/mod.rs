@@ -174,7 +174,7 @@ fn references(model: &Model) -> HashMap<NodeId, Stand> {
         };
         let place = match reference.position {
             Position::Node(label) => model.node(label),
-            Position::At(_) => None,
+            Position::At(_) | Position::Mean => None,
         };
         let rotations = reference.rotations.and_then(|label| model.node(label));
         for (node, turns) in [(place, false), (rotations, true)] {
