@@ -366,6 +366,10 @@ fn together(all: BTreeMap<Where, What>) -> Vec<(BTreeSet<Where>, What)> {
     // those that may be alike, by a number that these share
     let mut places: HashMap<u64, Vec<usize>> = HashMap::new();
     for (at, what) in all {
+        if !may_go_together(&at) {
+            groups.push((BTreeSet::from([at]), what));
+            continue;
+        }
         let near = places.entry(likeness(&what)).or_default();
         let alike = |&&k: &&usize| {
             groups.get(k).is_some_and(|(members, known)| {
@@ -404,6 +408,11 @@ fn likeness(what: &What) -> u64 {
         (number + 0.0).to_bits().hash(&mut hasher);
     }
     hasher.finish()
+}
+
+/// Whether others may be one load with it.
+fn may_go_together(at: &Where) -> bool {
+    matches!(at, Where::Node(..) | Where::Side(..))
 }
 
 /// Whether two may be one load.

@@ -207,6 +207,8 @@ impl Translation<'_> {
                 },
             };
             if !self.is_defined(&amplitude) {
+                let number = self.case.amplitudes.len();
+                self.amplitudes.insert(compared(name), number);
                 self.case.amplitudes.push(amplitude);
             }
         }
@@ -256,9 +258,8 @@ impl Translation<'_> {
 
     /// Whether there is an amplitude of this name, which has to be the same.
     fn is_defined(&mut self, again: &Amplitude) -> bool {
-        let mut known = self.case.amplitudes.iter();
-        let same_name = |one: &&Amplitude| compared(&one.name) == compared(&again.name);
-        let Some(first) = known.find(same_name) else {
+        let known = self.amplitudes.get(&compared(&again.name));
+        let Some(first) = known.and_then(|&number| self.case.amplitudes.get(number)) else {
             return false;
         };
         if first.factor != again.factor || first.time != again.time {
@@ -278,11 +279,9 @@ impl Translation<'_> {
     /// The name of an amplitude as the case has it.
     pub fn amplitude(&mut self, card: &Statement) -> Option<Name> {
         let wanted = card.get("AMPLITUDE")?;
-        let known = self.case.amplitudes.iter();
-        let known = known
-            .map(|one| &one.name.value)
-            .find(|name| compared(name) == compared(wanted));
-        match known.cloned() {
+        let known = self.amplitudes.get(&compared(wanted));
+        let known = known.and_then(|&number| self.case.amplitudes.get(number));
+        match known.map(|one| one.name.value.clone()) {
             Some(name) => {
                 let name = self.delayed(card, name);
                 Some(Spanned::new(name, card.place.clone()))

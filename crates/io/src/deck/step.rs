@@ -27,6 +27,8 @@ enum Course {
 /// A line of *BOUNDARY, or several that differ in their nodes alone.
 struct Line {
     targets: Vec<Target>,
+    /// Whether these are single nodes.
+    single: bool,
     /// Components, from 0.
     components: Vec<usize>,
     course: Course,
@@ -327,14 +329,15 @@ impl Translation<'_> {
             match lines.last_mut() {
                 Some(last)
                     if single
+                        && last.single
                         && last.components == components
-                        && last.course == course
-                        && last.targets.iter().all(|t| matches!(t, Target::One(_))) =>
+                        && last.course == course =>
                 {
                     last.targets.extend(targets);
                 }
                 _ => lines.push(Line {
                     targets,
+                    single,
                     components,
                     course,
                     place,
@@ -383,6 +386,7 @@ impl Translation<'_> {
                 .filter(|(components, _)| !components.is_empty());
             kept.extend(groups.map(|(components, targets)| Line {
                 targets,
+                single: line.single,
                 components,
                 course: line.course.clone(),
                 place: line.place.clone(),

@@ -36,6 +36,8 @@ pub(super) struct Translation<'d> {
     /// Whether a constraint bends with large displacements: then all steps are of large displacements.
     pub bends: bool,
     pub materials: BTreeMap<String, material::Properties>,
+    /// Places of amplitudes in the case, by what their names are compared by.
+    pub amplitudes: BTreeMap<String, usize>,
     pub pairs: Vec<contact::Pair>,
     nodes: Lookup,
     /// Places of elements among those of the mesh's dimension.
@@ -113,6 +115,7 @@ impl<'d> Translation<'d> {
             carriers: BTreeMap::new(),
             bends: false,
             materials: BTreeMap::new(),
+            amplitudes: BTreeMap::new(),
             pairs: Vec::new(),
             nodes: Lookup::new(&mesh.node_labels),
             elements: Lookup::new(&labels),

@@ -207,28 +207,36 @@ impl Followers<'_> {
                 .filter_map(|&n| self.mesh.points.get(n as usize));
             points.copied().sum::<Vec3>() / nodes.len().max(1) as f64
         };
-        let place = |(carrier, (part, nodes)): (RigidId, (&CarrierPart, &BTreeSet<NodeId>))| {
+        let placed = self.carriers.iter().zip(nodes);
+        let placed = placed.map(|(part, nodes)| part.at.is_some() || !nodes.is_empty());
+        let followers = self.followers(&placed.collect::<Vec<_>>());
+        let place = |((part, nodes), followers): ((&CarrierPart, _), &BTreeSet<NodeId>)| {
+            let nodes: &BTreeSet<NodeId> = nodes;
             part.at.unwrap_or_else(|| match nodes.is_empty() {
-                true => mean(&self.followers(carrier)),
+                true => mean(followers),
                 false => mean(nodes),
             })
         };
-        (0..)
-            .zip(self.carriers.iter().zip(nodes))
-            .map(place)
-            .collect()
+        let parts = self.carriers.iter().zip(nodes);
+        parts.zip(&followers).map(place).collect()
     }
 
-    /// The nodes that follow a carrier by a coupling, or that it follows.
-    fn followers(&self, wanted: RigidId) -> BTreeSet<NodeId> {
-        let of = |constraint: &&ConstraintPart| match &constraint.kind {
-            ConstraintKind::Kinematic { carrier, .. }
+    /// The nodes that follow carriers by couplings, or that these follow; of those without a place alone.
+    fn followers(&self, placed: &[bool]) -> Vec<BTreeSet<NodeId>> {
+        let mut all = vec![BTreeSet::new(); placed.len()];
+        for constraint in self.constraints {
+            let (ConstraintKind::Kinematic { carrier, .. }
             | ConstraintKind::KinematicAlong { carrier, .. }
-            | ConstraintKind::Distributing { carrier, .. } => *carrier == wanted,
-            _ => false,
-        };
-        let couplings = self.constraints.iter().filter(of);
-        couplings.flat_map(|one| one.kind.nodes()).collect()
+            | ConstraintKind::Distributing { carrier, .. }) = &constraint.kind
+            else {
+                continue;
+            };
+            let number = *carrier as usize;
+            if let (Some(false), Some(nodes)) = (placed.get(number), all.get_mut(number)) {
+                nodes.extend(constraint.kind.nodes());
+            }
+        }
+        all
     }
 
     fn ties(&self, layout: &Layout, rigid: &[bool]) -> Ties {

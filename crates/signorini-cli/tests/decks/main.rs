@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod axes;
+mod cards;
 #[path = "../../../signorini/tests/common/mod.rs"]
 mod common;
 mod damaged;

@@ -13,7 +13,7 @@
 use super::Preview;
 use crate::run::{Fields, Volume};
 use crate::setup::Model;
-use signorini_geometry::mesh::Mesh;
+use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::writers::vtu::{Field, Values, VtuError};
 use signorini_mechanics::system::{ContactFrame, DofName, FieldId};
@@ -56,24 +56,30 @@ pub fn picture(model: &Model, preview: &Preview) -> Result<Vec<u8>, VtuError> {
 /// The body of each cell of the mesh's dimension: the first whose nodes hold all of its nodes.
 fn bodies(model: &Model) -> Vec<i32> {
     let mesh = &model.mesh;
-    let member = |body: &signorini_io::case::Body| {
-        let mut member = vec![false; mesh.nnode()];
+    // nodes with the bodies that they are in
+    let mut members: Vec<(NodeId, i32)> = Vec::new();
+    for (number, body) in (0..).zip(&model.case.bodies) {
         let groups = body.groups.iter();
-        for node in groups.filter_map(|g| model.nodes_of(&g.value)).flatten() {
-            if let Some(member) = member.get_mut(node as usize) {
-                *member = true;
-            }
-        }
-        member
-    };
-    let members: Vec<Vec<bool>> = model.case.bodies.iter().map(member).collect();
+        let nodes = groups.filter_map(|g| model.nodes_of(&g.value)).flatten();
+        members.extend(nodes.map(|node| (node, number)));
+    }
+    members.sort_unstable();
+    members.dedup();
     let of_cell = |cell| {
-        let holds = |member: &&Vec<bool>| {
-            let mut nodes = mesh.cell(cell).iter();
-            nodes.all(|&n| member.get(n as usize) == Some(&true))
+        let nodes = mesh.cell(cell);
+        let holds = |body: i32| {
+            let mut nodes = nodes.iter();
+            nodes.all(|&node| members.binary_search(&(node, body)).is_ok())
         };
-        let at = members.iter().position(|m| holds(&m));
-        at.map_or(-1, |at| at as i32)
+        let Some(&first) = nodes.first() else {
+            return -1;
+        };
+        let from = members.partition_point(|(node, _)| *node < first);
+        let of_first = members.iter().skip(from).take_while(|m| m.0 == first);
+        of_first
+            .map(|m| m.1)
+            .find(|&body| holds(body))
+            .unwrap_or(-1)
     };
     mesh.cells(mesh.dim()).map(of_cell).collect()
 }

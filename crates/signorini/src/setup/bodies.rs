@@ -474,10 +474,11 @@ pub(super) fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Dia
     found
 }
 
-/// What was chosen for a body.
-pub(super) fn of_body<'a>(
-    locking: &'a [LockingSummary],
-    body: &str,
-) -> impl Iterator<Item = &'a LockingSummary> {
-    locking.iter().filter(move |one| one.body == body)
+/// What was chosen for each body, by its name.
+pub(super) fn by_body(locking: &[LockingSummary]) -> BTreeMap<&str, Vec<&LockingSummary>> {
+    let mut all: BTreeMap<&str, Vec<&LockingSummary>> = BTreeMap::new();
+    for one in locking {
+        all.entry(&one.body).or_default().push(one);
+    }
+    all
 }

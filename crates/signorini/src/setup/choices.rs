@@ -41,9 +41,10 @@ pub(super) fn choose(
         }
         part.reach = Some(summary.reach);
     }
+    let by_body = bodies::by_body(locking);
     for body in &mut case.bodies {
-        let name = bodies::name(body);
-        let mut chosen = bodies::of_body(locking, &name).map(|one| one.locking);
+        let of_body = by_body.get(&*bodies::name(body));
+        let mut chosen = of_body.into_iter().flatten().map(|one| one.locking);
         // elements and sizes of strains that differ leave the choice to the program
         if let Some(first) = chosen.next().filter(|first| chosen.all(|c| c == *first)) {
             body.locking.value = bodies::locking_word(first);

@@ -97,11 +97,12 @@ impl Model {
     /// Bodies with their remedies against locking: `block: b-bar`; none where nothing is done.
     #[must_use]
     pub fn remedies(&self) -> Vec<String> {
+        let by_body = bodies::by_body(&self.locking);
         let remedy = |body| {
             let name = bodies::name(body);
             let mut words: Vec<String> = Vec::new();
-            for one in bodies::of_body(&self.locking, &name).filter(|l| l.locking != Locking::None)
-            {
+            let of_body = by_body.get(&*name).into_iter().flatten();
+            for one in of_body.filter(|one| one.locking != Locking::None) {
                 let word = one.locking.to_string();
                 if !words.contains(&word) {
                     words.push(word);
@@ -261,6 +262,7 @@ fn parts<'a>(
         carriers,
         own,
         bodies: &parts.bodies,
+        amplitudes: (case.amplitudes.iter().map(|one| (one.name.as_str(), one))).collect(),
     };
     let (steps, couplings) = steps.steps(found);
     parts.steps = steps;

@@ -16,6 +16,7 @@ use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target};
 use signorini_mechanics::solve::{Increments, Motion};
 use signorini_mechanics::system::TimeFunction;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Steps, with what earlier ones leave behind.
@@ -25,6 +26,8 @@ pub(super) struct Builder<'a> {
     pub carriers: &'a Carriers,
     pub own: &'a Own,
     pub bodies: &'a [BodyPart],
+    /// Amplitudes by their names.
+    pub amplitudes: BTreeMap<&'a str, &'a Amplitude>,
 }
 
 impl Builder<'_> {
@@ -163,8 +166,7 @@ impl Builder<'_> {
     }
 
     fn amplitude(&self, name: &Name) -> Option<&Amplitude> {
-        let mut amplitudes = self.case.amplitudes.iter();
-        amplitudes.find(|a| a.name.value == name.value)
+        self.amplitudes.get(name.value.as_str()).copied()
     }
 
     fn motion(&self, course: &case::Motion) -> Motion {

@@ -62,8 +62,11 @@ struct Rows {
     /// `Σ aᵀ a` of the rows that speak of one unit only.
     own: Vec<[Motion; NCOMPONENT]>,
     /// The rows that speak of several.
-    shared: Vec<Vec<(usize, Motion)>>,
+    shared: Vec<Row>,
 }
+
+/// A row: units with their coefficients.
+type Row = Vec<(usize, Motion)>;
 
 /// The units of a model, and what holds them.
 pub(super) struct Held<'a> {
@@ -186,27 +189,38 @@ impl<'a> Held<'a> {
     /// A basis of the free motions of each unit (E3), of all together.
     fn free(&self) -> Vec<Vec<Motion>> {
         let mut free = vec![Vec::new(); self.units.len()];
+        // the rows that speak of each unit
+        let mut rows_of: Vec<Vec<&Row>> = vec![Vec::new(); self.units.len()];
+        for row in &self.rows.shared {
+            for (unit, _) in row {
+                if let Some(rows) = rows_of.get_mut(*unit) {
+                    rows.push(row);
+                }
+            }
+        }
+        let rows_of = |unit: usize| rows_of.get(unit).map_or(&[][..], Vec::as_slice);
         for group in self.groups() {
             if group.len() > NTOGETHER {
                 for &unit in &group {
-                    self.free_together(&[unit], &self.rows.shared, &mut free);
+                    self.free_together(&[unit], rows_of(unit).iter().copied(), &mut free);
                 }
             } else {
-                let is_here = |row: &&Vec<(usize, Motion)>| {
-                    row.first()
-                        .is_some_and(|(unit, _)| group.binary_search(unit).is_ok())
-                };
-                let shared: Vec<_> = self.rows.shared.iter().filter(is_here).cloned().collect();
-                self.free_together(&group, &shared, &mut free);
+                // each row once: with the first of its units
+                let begins =
+                    |unit: usize| move |row: &&&Row| row.first().map(|r| r.0) == Some(unit);
+                let rows = group
+                    .iter()
+                    .flat_map(|&u| rows_of(u).iter().filter(begins(u)));
+                self.free_together(&group, rows.copied(), &mut free);
             }
         }
         free
     }
 
-    fn free_together(
+    fn free_together<'r>(
         &self,
         group: &[usize],
-        shared: &[Vec<(usize, Motion)>],
+        shared: impl Iterator<Item = &'r Row>,
         free: &mut [Vec<Motion>],
     ) {
         let components = self.components();

@@ -1,7 +1,7 @@
 //! What becomes rows (E2).
 
 use super::null_space::null_space;
-use super::{Held, Motion, NCOMPONENT, Rows};
+use super::{Held, Motion, NCOMPONENT, Row, Rows};
 use crate::model::{
     ConstraintKind, ConstraintPart, ContactPart, Method, Normals, PrimaryPart, SidePart,
     SpringPart, Unknown,
@@ -12,9 +12,6 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, Placement, Pose, RigidId, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
-
-/// A row in the making: units with their coefficients.
-type Row = Vec<(usize, Motion)>;
 
 impl Held<'_> {
     /// What is prescribed.
