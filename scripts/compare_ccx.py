@@ -14,6 +14,8 @@ Gaps and tractions at integration points of faces in contact do not count: the p
 that leaves nothing else, ccx runs once more with displacements and stresses at nodes asked for in its last step, and
 these are compared; the table says so by `asked`.
 
+A submodel gets the results of its global model from ccx, which runs that first.
+
 What differs is compared once more with ccx iterating to the end: with the residual that ends its iterations ten thousand
 times smaller, and with its direct solver. Its default, half a percent of the mean force, is larger than the tolerance.
 
@@ -76,6 +78,8 @@ TOLERANCE = 1e-3
 # what is smaller is zero but for rounding, in the units of any deck
 ZERO = 1e-9
 REFUSED = 3
+# the results of a global model that a submodel takes its displacements from
+GLOBAL = re.compile(r"^\*\s*SUBMODEL\b.*\bINPUT\s*=\s*\"?([^\",\s]+)", re.IGNORECASE | re.MULTILINE)
 
 
 @dataclass
@@ -220,8 +224,19 @@ class Programs:
         self.ccx, self.signorini, self.timeout = ccx, signorini, timeout
         self.theirs, self.ours = os.path.join(folder, "theirs"), os.path.join(folder, "ours")
 
+    def provide(self, deck):
+        """Results of ccx that a submodel needs, in both folders."""
+        text = pathlib.Path(self.theirs, f"{deck}.inp").read_text(encoding="utf-8", errors="replace")
+        for name in set(GLOBAL.findall(text)):
+            results = os.path.join(self.theirs, name)
+            if not os.path.exists(results) and name.endswith(".frd"):
+                run([self.ccx, "-i", name.removesuffix(".frd")], self.theirs, self.timeout)
+            if os.path.exists(results):
+                shutil.copyfile(results, os.path.join(self.ours, name))
+
     def compare(self, deck, contact):
         """Runs a deck through both."""
+        self.provide(deck)
         code, said, ours = run(
             [self.signorini, "run", f"{deck}.inp", "--compat", "ccx", "--format", "frd", "--threads", "1", "--json"],
             self.ours,

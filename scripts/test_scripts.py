@@ -457,6 +457,10 @@ class CompareCcx(unittest.TestCase):
         self.assertEqual(found.count("*NODE FILE"), 1)
         self.assertTrue(found.endswith(f"1., 1.\n{self.script.ASKED}*End Step\n"))
 
+    def test_global_models_of_submodels_are_named_by_their_results(self):
+        text = '*SUBMODEL,TYPE=NODE,INPUT=beam.frd\nN1\n* Submodel, input="two.frd", GLOBAL ELSET=E\nN2\n*INCLUDE, INPUT=x.frd\n'
+        self.assertEqual(self.script.GLOBAL.findall(text), ["beam.frd", "two.frd"])
+
     def test_tables_at_points_of_contact_do_not_count(self):
         def block(name, ratio):
             return {"name": name, "time": 1.0, "outcome": "compared", "numbers": {"ratio": ratio}}
