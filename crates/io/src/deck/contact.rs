@@ -648,14 +648,14 @@ impl Translation<'_> {
     /// *MODEL CHANGE within a step.
     pub fn model_change(&mut self, card: &Statement, step: &mut Step) {
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
+        if kind == "ELEMENT" {
+            self.change_elements(card, step);
+            return;
+        }
         if kind != "CONTACTPAIR" {
             let text = format!("*MODEL CHANGE, TYPE={kind} is not supported");
-            self.error(
-                &codes::NOT_BUILT,
-                text,
-                &card.place,
-                "of contact pairs it is",
-            );
+            let remark = "of elements and of contact pairs it is";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
             return;
         }
         let active = !card.has("REMOVE");

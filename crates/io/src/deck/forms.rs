@@ -83,6 +83,12 @@ fn form(card: &Statement) -> Option<Form> {
         "MODELCHANGE" if card.peek("TYPE").map(compared).as_deref() == Some("CONTACTPAIR") => {
             each(SOME, (2, 2), "secondary and primary surface")
         }
+        "MODELCHANGE" if card.peek("TYPE").map(compared).as_deref() == Some("ELEMENT") => {
+            match card.peek("MECHSTRAINTORESIDUAL") {
+                Some(_) => return None,
+                None => each(SOME, (1, usize::MAX), "elements or element sets"),
+            }
+        }
         "CYCLICSYMMETRYMODEL" | "TRANSFORM" => each(ONE, (4, 6), "two points of three coordinates"),
         "DISTRIBUTINGCOUPLING" => each(SOME, (2, 2), "node or set, weight"),
         "GAP" => each(

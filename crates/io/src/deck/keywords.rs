@@ -155,7 +155,10 @@ pub const KEYWORDS: &[Keyword] = &[
     read("MATERIAL", ""),
     read("MEMBRANE", "of no elements; membranes are not built"),
     refused("MEMBRANE SECTION", "membranes are not built yet"),
-    read("MODEL CHANGE", "TYPE=CONTACT PAIR, ADD and REMOVE"),
+    read(
+        "MODEL CHANGE",
+        "TYPE=CONTACT PAIR, ADD and REMOVE; TYPE=ELEMENT, ADD=STRAIN FREE or WITH STRAIN, REMOVE",
+    ),
     ignored("MONITOR", "every increment is told of"),
     read("MPC", "PLANE, STRAIGHT, BEAM, MEANROT, DIST"),
     read("NODE", "SYSTEM"),

@@ -23,6 +23,7 @@
 //!
 //! To add a card: one line in [`KEYWORDS`], and its translation in the stage where it belongs.
 
+mod activity;
 mod axes;
 mod compat;
 mod constraint;

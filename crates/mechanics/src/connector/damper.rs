@@ -1,11 +1,12 @@
 //! What holds a body that nothing but contact stops, until contact does; and what slows a jump.
 
 use crate::system::{
-    Adaptive, Aid, Archive, ArchiveError, Capabilities, Choices, Course, Dof, Frame, Order, Part,
-    PatternSink, Phase, Properties, Role, Sink, State, Stored, Symmetry, Term, TermError, Verdict,
-    Viscous, Work,
+    Activity, Adaptive, Aid, Archive, ArchiveError, Capabilities, Choices, Course, Dof, DofName,
+    Frame, Layout, Order, Part, PatternSink, Phase, Properties, Role, Sink, State, Stored,
+    Symmetry, Term, TermError, Verdict, Viscous, Work,
 };
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
 /// Their work is reported.
@@ -30,6 +31,10 @@ pub struct Damper {
     /// The bodies that they hold: their ranges of `dofs`, and their course.
     courses: Vec<(Range<usize>, Course)>,
     work: f64,
+    /// Nodes that have no unknowns in some steps, as no element of theirs takes part there; `None` where all always have.
+    idle: Option<(Layout, Arc<Activity>)>,
+    /// The number of the step.
+    step: usize,
 }
 
 /// A load drives a motion that nothing resists so far where the forces have not fallen to this part since the last renewal.
@@ -105,7 +110,24 @@ impl Damper {
             weakened: 1.0,
             courses,
             work: 0.0,
+            idle: None,
+            step: 0,
         }
+    }
+
+    /// The same without forces at nodes of which no element takes part in a step.
+    #[must_use]
+    pub fn without_idle(mut self, layout: Layout, activity: Arc<Activity>) -> Self {
+        self.idle = (!activity.is_empty()).then_some((layout, activity));
+        self
+    }
+
+    /// Whether an unknown is there in the present step.
+    fn is_there(&self, dof: Dof) -> bool {
+        self.idle.as_ref().is_none_or(|(layout, activity)| {
+            let node = layout.name(dof).and_then(DofName::displacement);
+            node.is_none_or(|(node, _)| !activity.is_idle(node, self.step))
+        })
     }
 
     /// s.
@@ -125,6 +147,7 @@ impl Damper {
         let acting = if strength > 0.0 { CHUNK } else { 0 };
         dofs.skip(chunk * CHUNK)
             .take(acting)
+            .filter(|((dof, _), _)| self.is_there(*dof))
             .map(move |(&(dof, stiffness), &start)| (dof, strength * stiffness, start))
     }
 
@@ -191,12 +214,13 @@ impl Term for Damper {
         if matches!(self.strength, Strength::Asked(0.0)) {
             return;
         }
-        for &(dof, _) in &self.dofs {
+        for &(dof, _) in self.dofs.iter().filter(|(dof, _)| self.is_there(*dof)) {
             out.interface(&[dof]);
         }
     }
 
     fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
+        self.step = phase.step.number;
         if phase.increment.is_none() {
             return Ok(());
         }

@@ -195,6 +195,9 @@ impl Term for Centrifugal {
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
+        if self.clock.is_away() {
+            return;
+        }
         for (_, nodes, _) in self.cells.pieces() {
             out.bulk(nodes);
         }

@@ -47,6 +47,8 @@ pub struct Schedule {
     stretches: Vec<Stretch>,
     /// The factor at the end of the last.
     end: f64,
+    /// Whether what it acts on takes part only in some steps.
+    is_partial: bool,
 }
 
 /// The factor during one step.
@@ -157,6 +159,46 @@ impl Schedule {
         stretch.map_or(self.end != 0.0, |s| !s.is_zero())
     }
 
+    /// The same where what it acts on takes part only in some steps: `active` says in which, and `ramps` in which of the
+    /// others it fades when it goes. Where it comes again, it grows from zero.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_mechanics::load::Schedule;
+    /// use signorini_mechanics::system::StepContext;
+    ///
+    /// let step = |number: usize| StepContext { number, start: number as f64, ..StepContext::default() };
+    /// let steps = [0, 1, 2].map(step);
+    /// let weight = Schedule::ramps(&[1.0; 3]).partial(&[true, false, true], &[false, true, false], &steps);
+    /// let halfway = steps.map(|step| weight.at(&step, step.start + 0.5));
+    /// assert_eq!(halfway, [0.5, 0.5, 0.5]);
+    /// let ends = steps.map(|step| weight.at(&step, step.start + 1.0));
+    /// assert_eq!(ends, [1.0, 0.0, 1.0]);
+    /// ```
+    #[must_use]
+    pub fn partial(&self, active: &[bool], ramps: &[bool], steps: &[StepContext]) -> Self {
+        let is = |of: &[bool], step: usize| of.get(step).copied().unwrap_or(true);
+        let mut out = Self {
+            is_partial: true,
+            ..Self::default()
+        };
+        for (number, step) in steps.iter().enumerate() {
+            let was = number
+                .checked_sub(1)
+                .is_none_or(|before| is(active, before));
+            match (was, is(active, number), self.stretches.get(number)) {
+                (true, true, Some(stretch)) => out.push(stretch.clone(), step),
+                (true, true, None) => out.line(self.end, self.end),
+                (false, true, Some(Stretch::Line([_, to]))) => out.line(0.0, *to),
+                (false, true, Some(stretch)) => out.push(stretch.clone(), step),
+                (false, true, None) => out.line(0.0, self.end),
+                (true, false, _) if number > 0 && is(ramps, number) => out.fade(),
+                (_, false, _) => out.stop(),
+            }
+        }
+        out
+    }
+
     fn line(&mut self, from: f64, to: f64) {
         self.stretches.push(Stretch::Line([from, to]));
         self.end = to;
@@ -203,6 +245,11 @@ impl Clock {
 
     pub fn acts(&self) -> bool {
         self.schedule.acts(&self.step)
+    }
+
+    /// Whether what it acts on may take no part in this step: elements that do have the pattern anyway.
+    pub fn is_away(&self) -> bool {
+        self.schedule.is_partial && !self.acts()
     }
 }
 

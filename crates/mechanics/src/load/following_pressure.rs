@@ -104,6 +104,9 @@ impl Term for FollowingPressure {
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
+        if self.clock.is_away() {
+            return;
+        }
         for (_, nodes, _) in self.faces.pieces() {
             out.bulk(nodes);
         }

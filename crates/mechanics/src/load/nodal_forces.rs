@@ -79,6 +79,9 @@ impl Term for NodalForces {
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
+        if self.clock.is_away() {
+            return;
+        }
         for force in self.forces.iter().filter(|f| f.follows) {
             out.interface(&[force.dof]);
         }

@@ -241,6 +241,7 @@ impl Context<'_> {
                         at_nodes,
                         initial: &initial,
                     })?;
+                    solid.set_activity(self.activity.clone());
                     for (step, material) in later {
                         solid.change(step, material)?;
                     }
@@ -261,7 +262,7 @@ impl Context<'_> {
                     small,
                     ..
                 } => {
-                    terms.push(Box::new(Truss::new(TrussParts {
+                    let mut truss = Truss::new(TrussParts {
                         name,
                         mesh,
                         reference,
@@ -272,7 +273,9 @@ impl Context<'_> {
                         area,
                         small,
                         temperature,
-                    })?));
+                    })?;
+                    truss.set_activity(self.activity.clone());
+                    terms.push(Box::new(truss));
                 }
                 BodyKind::Rigid(_) => {}
             }

@@ -4,7 +4,7 @@ use super::constraints::Ties;
 use super::parts::CarrierPart;
 use super::spaces::Spaces;
 use super::substance::Substance;
-use crate::system::{Elimination, Idealisation, Layout};
+use crate::system::{Activity, Elimination, Idealisation, Layout};
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::Vec3;
@@ -30,4 +30,6 @@ pub(super) struct Context<'a> {
     pub ties: &'a Ties,
     /// Poses of the carriers at the start.
     pub poses: Vec<Pose>,
+    /// Which cells take part in which step.
+    pub activity: Arc<Activity>,
 }

@@ -1,5 +1,6 @@
 use super::Unheld;
 use crate::load::LoadError;
+use crate::model::activity::ActivityError;
 use crate::model::constraint_error::ConstraintError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
@@ -145,6 +146,17 @@ pub enum ModelError {
     /// Bodies with motions that nothing can stop; some may move only because others do.
     #[error("{}", free_bodies(.0))]
     FreeBodies(Vec<Unheld>),
+    /// Bodies that nothing stops any more once a step has removed elements, or when it adds some.
+    #[error("in step \"{step}\" {}", free_bodies(.free))]
+    FreeLater {
+        /// Name of the step.
+        step: String,
+        /// The bodies.
+        free: Vec<Unheld>,
+    },
+    /// Elements that cannot be removed or added.
+    #[error(transparent)]
+    Activity(#[from] ActivityError),
     /// One dof with two motions in one step.
     #[error(
         "step \"{step}\" prescribes the {component} displacement of node {node} twice, differently"

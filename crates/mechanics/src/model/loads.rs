@@ -2,17 +2,17 @@
 
 use super::label::label;
 use super::substance::Substance;
-use super::{Context, LoadPart, ModelError};
+use super::{ActivityError, Context, LoadPart, ModelError};
 use crate::load::{
     Acting, Course, Domain, Effect, LoadError, NodalForces, Place, Region, Schedule, Site,
 };
 use crate::solid::Integration;
 use crate::solve::Step;
-use crate::system::{Dof, Idealisation, NO_DOF, StepContext, Term};
+use crate::system::{CellChange, Dof, Idealisation, NO_DOF, StepContext, Term};
 use signorini_geometry::mesh::{CellId, Face, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The terms of these loads, given step by step.
 pub(super) fn terms(
@@ -22,9 +22,27 @@ pub(super) fn terms(
 ) -> Result<Vec<Box<dyn Term>>, ModelError> {
     let mut terms = Vec::new();
     for (part, schedule) in schedules(steps, loads)? {
-        terms.extend(context.load(&part, schedule, steps)?);
+        for (part, schedule) in context.parts_of(part, schedule, steps)? {
+            terms.extend(context.load(&part, schedule, steps)?);
+        }
     }
     Ok(terms)
+}
+
+/// The steps as terms see them.
+fn contexts(steps: &[Step]) -> Vec<StepContext> {
+    let mut start = 0.0;
+    let context = |(number, step): (usize, &Step)| {
+        let here = StepContext {
+            number,
+            start,
+            duration: step.duration,
+            nonlinear: step.nonlinear,
+        };
+        start += step.duration;
+        here
+    };
+    steps.iter().enumerate().map(context).collect()
 }
 
 /// Every load ever given, with its factor over time.
@@ -33,15 +51,8 @@ fn schedules(
     loads: Vec<Vec<LoadPart>>,
 ) -> Result<Vec<(LoadPart, Schedule)>, ModelError> {
     let mut all: Vec<(LoadPart, Schedule)> = Vec::new();
-    let mut start = 0.0;
-    for (number, (step, parts)) in steps.iter().zip(loads).enumerate() {
-        let here = StepContext {
-            number,
-            start,
-            duration: step.duration,
-            nonlinear: step.nonlinear,
-        };
-        start += step.duration;
+    let contexts = contexts(steps);
+    for (number, ((step, here), parts)) in steps.iter().zip(contexts).zip(loads).enumerate() {
         let mut names = BTreeSet::new();
         if let Some(twice) = parts.iter().find(|p| !names.insert(&p.name)) {
             let step = step.name.clone();
@@ -75,7 +86,61 @@ fn set<T: Copy + Ord>(members: &[T]) -> BTreeSet<T> {
     members.iter().copied().collect()
 }
 
+/// In which steps what a load acts on takes part, and in which it fades when it goes.
+type Stay = (Vec<bool>, Vec<bool>);
+
 impl Context<'_> {
+    /// A load on faces or cells in parts, each of what takes part in the same steps.
+    fn parts_of(
+        &self,
+        part: LoadPart,
+        schedule: Schedule,
+        steps: &[Step],
+    ) -> Result<Vec<(LoadPart, Schedule)>, ModelError> {
+        let cells: Vec<CellId> = match &part.load.place {
+            Place::Faces(faces) => faces.iter().map(|face| face.cell).collect(),
+            Place::Cells(cells) => cells.clone(),
+            Place::Nodes(_) | Place::Carrier(_) => Vec::new(),
+        };
+        if !cells.iter().any(|&cell| self.activity.names(cell)) {
+            return Ok(vec![(part, schedule)]);
+        }
+        let course = |cell: CellId| -> Stay {
+            let fades = |step| {
+                let change = self.activity.change(cell, step);
+                change == Some(CellChange::Removed { ramp: true })
+            };
+            let ramps = (0..self.activity.nstep()).map(fades);
+            (self.activity.course(cell), ramps.collect())
+        };
+        let mut groups: BTreeMap<Stay, Vec<usize>> = BTreeMap::new();
+        for (k, &cell) in cells.iter().enumerate() {
+            groups.entry(course(cell)).or_default().push(k);
+        }
+        if groups.len() > 1 && part.load.load.properties().domain == Domain::FacesOrNodes {
+            let load = part.name;
+            return Err(ActivityError::TotalOverParts { load }.into());
+        }
+        let contexts = contexts(steps);
+        let of_group = |((active, ramps), members): (Stay, Vec<usize>)| {
+            let place = match &part.load.place {
+                Place::Faces(faces) => Place::Faces(picked(faces, &members)),
+                Place::Cells(cells) => Place::Cells(picked(cells, &members)),
+                other => other.clone(),
+            };
+            let load = Acting {
+                place,
+                ..part.load.clone()
+            };
+            let part = LoadPart {
+                load,
+                ..part.clone()
+            };
+            (part, schedule.partial(&active, &ramps, &contexts))
+        };
+        Ok(groups.into_iter().map(of_group).collect())
+    }
+
     /// The term of a load; none where it has no size.
     fn load(
         &self,
@@ -239,6 +304,12 @@ impl Context<'_> {
     fn number(&self, cell: CellId) -> u64 {
         self.mesh.cell_label(cell).unwrap_or(0)
     }
+}
+
+/// Some of these.
+fn picked<T: Copy>(of: &[T], members: &[usize]) -> Vec<T> {
+    let members = members.iter().filter_map(|&k| of.get(k));
+    members.copied().collect()
 }
 
 /// What acts, on unknowns that exist.

@@ -19,6 +19,7 @@
 //! increments of the rotation vector: what `rx, ry, rz` prescribe is the integral of its rate, so that components
 //! ramped together turn about a fixed axis, by as many turns as one likes.
 
+mod activity;
 mod bodies;
 mod constraint_error;
 mod constraints;
@@ -36,6 +37,7 @@ mod substance;
 mod summary;
 
 pub use crate::load::LoadError;
+pub use activity::{ActivityError, ActivityPart};
 pub use constraint_error::ConstraintError;
 pub use error::ModelError;
 pub use held::Unheld;
@@ -140,6 +142,7 @@ impl Model {
         let (mesh, space) = (parts.mesh, parts.space);
         let (bodies, contacts) = (&parts.bodies, &parts.contacts);
         let owner = owners(mesh, bodies)?;
+        let activity = Arc::new(activity::activity(mesh, bodies, &owner, &parts.steps)?);
         let body_of_node = nodes_by_body(mesh, bodies);
         let between = between(mesh, bodies);
         let spaces = Spaces::new(space, &owner, &body_of_node, bodies);
@@ -155,8 +158,8 @@ impl Model {
         let mut layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
-        let joint =
-            contact::Steps::new(contacts, &parts.steps, [parts.gap_tol, parts.traction_tol]);
+        let tolerances = [parts.gap_tol, parts.traction_tol];
+        let joint = contact::Steps::new(contacts, &parts.steps, &activity, tolerances);
         let rubs: Vec<bool> = (0..contacts.len()).map(|k| joint.rubs(k)).collect();
         let motions = steps::prescribed(mesh.nnode(), &parts.steps);
         let prescribed = steps::in_whole(&motions, space.ndim());
@@ -200,6 +203,7 @@ impl Model {
             layout,
             ties: &ties,
             poses,
+            activity,
         };
         let (mut steps, loads) = context.steps(parts.steps)?;
         let elimination = Arc::make_mut(&mut context.elimination);
@@ -248,7 +252,7 @@ fn moduli(bodies: &[BodyPart]) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
 }
 
 impl Followers<'_> {
-    /// Motions of bodies that nothing but contact stops.
+    /// Motions of bodies that nothing but contact stops: in the first step, and whenever elements are removed or added.
     fn held_by_contact(
         &self,
         context: &Context<'_>,
@@ -256,26 +260,58 @@ impl Followers<'_> {
         steps: &[Step],
         hold_free: bool,
     ) -> Result<Vec<Unheld>, ModelError> {
-        let elimination = &context.elimination;
+        let mut all: Vec<Unheld> = Vec::new();
+        let changed = (1..steps.len()).filter(|&step| context.activity.changes_at(step));
+        for number in std::iter::once(0).chain(changed) {
+            let held = self.held_in(context, contacts, steps, number);
+            match held.judge() {
+                Err(ModelError::FreeBodies(_)) if hold_free => {}
+                Err(ModelError::FreeBodies(free)) if number > 0 => {
+                    let step = steps.get(number).map(|step| step.name.clone());
+                    let step = step.unwrap_or_default();
+                    return Err(ModelError::FreeLater { step, free });
+                }
+                judged => {
+                    for one in judged? {
+                        if all.iter().all(|known| known.bodies != one.bodies) {
+                            all.push(one);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// What holds the elements that take part in a step.
+    fn held_in<'h>(
+        &'h self,
+        context: &'h Context<'_>,
+        contacts: &contact::Steps<'_>,
+        steps: &[Step],
+        number: usize,
+    ) -> Held<'h> {
+        let activity = &context.activity;
         let mut held = Held::new(
             self.mesh,
             self.space,
             self.bodies,
             self.carriers,
-            elimination,
+            &context.elimination,
+            &|cell| activity.is_active(cell, number),
         );
         held.springs(self.springs);
         held.constraints(self.constraints);
-        for (number, contact) in self.contacts.iter().enumerate() {
-            held.contact(contact, contacts.rubs(number), &context.poses);
+        for (at, contact) in self.contacts.iter().enumerate() {
+            held.contact(contact, contacts.rubs(at), &context.poses);
         }
-        if let Some(first) = steps.first() {
-            held.supports(&context.layout, &first.prescriptions);
+        if let Some(step) = steps.get(number) {
+            held.supports(&context.layout, &step.prescriptions);
         }
-        match held.judge() {
-            Err(ModelError::FreeBodies(_)) if hold_free => Ok(Vec::new()),
-            judged => judged,
+        if number > 0 {
+            held.judge_bodies_alone();
         }
+        held
     }
 }
 
@@ -311,12 +347,15 @@ fn all_sides(
     layout: &mut Layout,
 ) -> Result<Vec<(Sides, usize)>, ModelError> {
     let mut sides = Vec::new();
-    for (number, part) in contacts.parts.iter().enumerate() {
-        for pass in source.sides(number, part)? {
-            let first = layout.nmultiplier();
-            let own = pass.nmultiplier(part, contacts.rubs(number), layout.ndim());
-            *layout = layout.with_multipliers(first + own);
-            sides.push((pass, first));
+    for (number, variants) in contacts.variants.iter().enumerate() {
+        for (variant, one) in variants.iter().enumerate() {
+            for mut pass in source.sides(number, &one.part)? {
+                pass.variant = variant;
+                let first = layout.nmultiplier();
+                let own = pass.nmultiplier(&one.part, contacts.rubs(number), layout.ndim());
+                *layout = layout.with_multipliers(first + own);
+                sides.push((pass, first));
+            }
         }
     }
     Ok(sides)
@@ -343,7 +382,11 @@ impl Context<'_> {
         let holds = held.and_then(|held| self.holds(bodies, held));
         let brake = (!is_without_contact).then(|| self.brake(bodies));
         let dampers = [holds, brake].into_iter().flatten();
-        dampers.map(|damper| Box::new(damper) as Box<dyn Term>)
+        let (layout, activity) = (self.layout, self.activity.clone());
+        dampers.map(move |damper| {
+            let damper = damper.without_idle(layout, activity.clone());
+            Box::new(damper) as Box<dyn Term>
+        })
     }
 
     /// Adds the interfaces of all contacts to the terms; returns what was chosen for each.
@@ -355,14 +398,14 @@ impl Context<'_> {
     ) -> Result<Vec<ContactSummary>, ModelError> {
         let mut summaries = Vec::new();
         for (pass, first) in sides {
-            let Some(part) = contacts.parts.get(pass.contact) else {
+            let Some(variant) = contacts.variant(pass.contact, pass.variant) else {
                 continue;
             };
-            let swapped = pass.swapped;
-            let (parts, summary) = self.contact(pass, part, contacts, first)?;
+            let is_other = pass.swapped || pass.variant > 0;
+            let (parts, summary) = self.contact(pass, variant, contacts, first)?;
             let interface = Interface::new(parts, self.layout, self.elimination.clone());
             terms.push(Box::new(interface));
-            if !swapped {
+            if !is_other {
                 summaries.push(summary);
             }
         }

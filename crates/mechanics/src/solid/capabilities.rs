@@ -14,7 +14,8 @@ use signorini_geometry::mesh::{CellId, NodeId};
 
 impl InitialStiffness for Solid {
     fn id(&self) -> u64 {
-        2 * self.nchanged() as u64 + self.kinematics as u64
+        let of_step = 2 * self.nchanged() as u64 + self.kinematics as u64;
+        (self.elements_id() << 16) + of_step
     }
 
     fn add_initial(
@@ -38,7 +39,8 @@ impl InitialStiffness for Solid {
                 .iter()
                 .flat_map(at)
                 .map(|dof| trial.u[dof as usize]);
-            block.nhistory == 0 && displacements.all(|u| u == 0.0)
+            let is_plain = block.nhistory == 0 && block.part.is_natural();
+            is_plain && displacements.all(|u| u == 0.0)
         };
         self.temperature.is_none() && self.blocks.iter().all(is_undeformed)
     }
@@ -48,7 +50,8 @@ impl Elementwise for Solid {
     fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
         if let Some(&(number, first, last)) = self.chunks.get(chunk) {
             let block = &self.blocks[number];
-            (first..last).for_each(|cell| take(block.nodes_of(cell)));
+            let active = (first..last).filter(|cell| block.part.is_active(*cell));
+            active.for_each(|cell| take(block.nodes_of(cell)));
         }
     }
 }
@@ -71,7 +74,9 @@ impl Stored for Solid {
                     scratch
                         .new
                         .copy_from_slice(&block.history[cell * n..(cell + 1) * n]);
-                    self.cell(block, cell, At::Trial(state), Wanted::Forces, scratch)?;
+                    if block.part.is_active(cell) {
+                        self.cell(block, cell, At::Trial(state), Wanted::Forces, scratch)?;
+                    }
                     to.copy_from_slice(&scratch.new);
                 }
                 Ok(())
@@ -91,6 +96,7 @@ impl Stored for Solid {
                 out.put(self.archived(number), &block.history);
             }
         }
+        self.save_plan(out);
     }
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
@@ -101,7 +107,7 @@ impl Stored for Solid {
                 from.get(&name, &mut block.history)?;
             }
         }
-        Ok(())
+        self.load_plan(from)
     }
 }
 
@@ -111,7 +117,7 @@ impl Sampled for Solid {
         for block in &self.blocks {
             scratch.size(block, self.layout.ndim(), Wanted::Samples);
             for (cell, id) in block.ids.iter().enumerate() {
-                if cells.binary_search(id).is_err() {
+                if cells.binary_search(id).is_err() || !block.part.is_active(cell) {
                     continue;
                 }
                 self.cell(block, cell, At::Trial(state), Wanted::Samples, &mut scratch)?;

@@ -1,5 +1,6 @@
 //! Cells of one element: nodes, treatment and initial state.
 
+use super::activation::Part;
 use super::choice::Situation;
 use super::error::SolidError;
 use super::kernel::{BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel};
@@ -58,8 +59,12 @@ pub(super) struct Cells {
     pub undeformed: Vec<f64>,
     // accepted history of all cells
     pub history: Vec<f64>,
-    // at the points of all cells; empty where there is nothing at the start
+    // at the points of all cells, as given; empty where there is nothing at the start
+    pub given: Vec<Initial>,
+    // the same in the present step, with the strain at which cells were added
     pub initial: Vec<Initial>,
+    // which cells take part
+    pub part: Part,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
     pub rigidity: Vec<f64>,
 }
@@ -109,7 +114,9 @@ impl Cells {
             nhistory: rule.npoint() * nhistory + modes,
             undeformed: Vec::new(),
             history: Vec::new(),
+            given: Vec::new(),
             initial: Vec::new(),
+            part: Part::default(),
         })
     }
 
@@ -165,12 +172,13 @@ impl Cells {
                     point: at.point + 1,
                 });
             }
-            self.initial
+            self.given
                 .resize(self.ids.len() * npoint, Initial::default());
-            let to = &mut self.initial[cell * npoint + at.point];
+            let to = &mut self.given[cell * npoint + at.point];
             to.stress = to.stress + at.stress;
             to.strain = to.strain + at.strain;
         }
+        self.initial.clone_from(&self.given);
         Ok(())
     }
 

@@ -55,6 +55,10 @@
 //! A point may have a stress `S_0` and a strain `E_0` that leaves no stress, [`AtStart`]: `S = S(E − E_0) + S_0`, with
 //! the energy `W(E − E_0) + S_0 : E`. Both stay what they are; they are not in equilibrium by themselves.
 //!
+//! # Cells that take no part
+//!
+//! A step may remove cells and add them again, [`Solid::set_activity`]: (E18) to (E20) in `activation`.
+//!
 //! # Several at once
 //!
 //! Cells without a remedy are evaluated as many at a time as the vector registers of the processor have lanes,
@@ -74,6 +78,7 @@
 //! To add an element: its file in `geometry`, and one line in each of the `kernel`'s tables that has its dimension.
 //! Limits: quad4 and hex8 have no remedy in bending at finite strain; a material's history goes on unchanged where a step of small strain is followed by one of finite strain.
 
+mod activation;
 mod at;
 mod capabilities;
 mod cells;

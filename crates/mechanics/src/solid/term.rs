@@ -1,3 +1,4 @@
+use super::activation::Plan;
 use super::at::At;
 use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
@@ -23,6 +24,8 @@ pub struct Solid {
     pub(super) material: Box<dyn Material>,
     // materials that take its place, each with the step from which on it does, in their order
     pub(super) later: Vec<(usize, Box<dyn Material>)>,
+    // whether each of these laws is linear in the strain, before directions are free of stress
+    linear: Vec<bool>,
     pub(super) kinematics: Kinematics,
     pub(super) space: Idealisation,
     pub(super) temperature: Option<Arc<NodalField>>,
@@ -30,6 +33,10 @@ pub struct Solid {
     pub(super) blocks: Vec<Cells>,
     // (block, first cell, last cell)
     pub(super) chunks: Vec<(usize, usize, usize)>,
+    // which cells take part; none where all always do
+    pub(super) plan: Option<Plan>,
+    // whether the strain at which cells were added is taken off in the present step
+    pub(super) subtracts: bool,
 }
 
 /// What a body is made from.
@@ -130,6 +137,7 @@ impl Solid {
             at_nodes,
             initial,
         } = parts;
+        let linear = vec![material.linearity().is_linear()];
         let material: Box<dyn Material> = match space {
             Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
             _ => material,
@@ -196,12 +204,15 @@ impl Solid {
             reference,
             material,
             later: Vec::new(),
+            linear,
             kinematics: Kinematics::Finite,
             space,
             temperature,
             step: StepContext::default(),
             blocks,
             chunks,
+            plan: None,
+            subtracts: false,
         })
     }
 
@@ -210,6 +221,7 @@ impl Solid {
     /// # Errors
     /// Its history at a point is another one's.
     pub fn change(&mut self, step: usize, material: Box<dyn Material>) -> Result<(), SolidError> {
+        let linear = material.linearity().is_linear();
         let material: Box<dyn Material> = match self.space {
             Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
             _ => material,
@@ -220,6 +232,7 @@ impl Solid {
             });
         }
         self.later.push((step, material));
+        self.linear.push(linear);
         Ok(())
     }
 
@@ -236,9 +249,23 @@ impl Solid {
         later.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
     }
 
+    /// Whether the law of the present step is linear in the strain.
+    pub(super) fn is_linear(&self) -> bool {
+        self.linear
+            .get(self.nchanged())
+            .copied()
+            .unwrap_or_default()
+    }
+
+    /// Identifies the cells that take part.
+    pub(super) fn elements_id(&self) -> u64 {
+        self.plan.as_ref().map_or(0, Plan::epoch)
+    }
+
     /// Which strains it uses; steps change it.
     pub fn set_kinematics(&mut self, kinematics: Kinematics) {
         self.kinematics = kinematics;
+        self.subtracts = kinematics == Kinematics::Finite && self.is_linear();
     }
 
     /// What is done against locking at this size of strains: each type of element with what was chosen for it.
@@ -285,9 +312,13 @@ impl Solid {
         let width = if batch.is_some() { width() } else { 1 };
         for begin in (first..last).step_by(width) {
             let cells = begin..last.min(begin + width);
-            let is_done =
-                batch.is_some_and(|b| self.batch(block, b, cells.clone(), at, wanted, scratch));
+            let are_active = cells.clone().all(|cell| block.part.is_active(cell));
+            let is_done = are_active
+                && batch.is_some_and(|b| self.batch(block, b, cells.clone(), at, wanted, scratch));
             for (lane, cell) in cells.enumerate() {
+                if !block.part.is_active(cell) {
+                    continue;
+                }
                 let energy = if is_done {
                     self.pick(block, cell, at, (lane, width), scratch)
                 } else {
@@ -342,16 +373,17 @@ impl Solid {
         temperature.clear();
         temperature_at_start.clear();
         for lane in 0..width {
-            let nodes = block.nodes_of(cell_of(lane));
-            for (k, &node) in nodes.iter().enumerate() {
-                let x = self.reference[node as usize].to_array();
+            let cell = cell_of(lane);
+            for (k, &node) in block.nodes_of(cell).iter().enumerate() {
+                let x = self.place(block, cell, k).to_array();
                 for (axis, x) in x.into_iter().enumerate().take(self.layout.ndim()) {
                     let place = (k * self.layout.ndim() + axis) * width + lane;
                     lanes.x[place] = x;
-                    lanes.u[place] = at.displacement(self.layout.node(node, axis));
+                    let origin = self.origin(block, cell, k, axis);
+                    lanes.u[place] = self.moved(at, self.layout.node(node, axis), origin);
                 }
             }
-            self.heat(nodes, at, temperature, temperature_at_start);
+            self.heat(block, cell, at, temperature, temperature_at_start);
         }
         let of_lane = |values: &'_ [f64], lane: usize| -> Range<usize> {
             let range = lane * block.nnode..(lane + 1) * block.nnode;
@@ -407,22 +439,67 @@ impl Solid {
     pub(super) fn locate(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
         scratch.u.clear();
         scratch.dofs.clear();
-        for &node in block.nodes_of(cell) {
+        for (k, &node) in block.nodes_of(cell).iter().enumerate() {
             for axis in 0..self.layout.ndim() {
                 let dof = self.layout.node(node, axis);
                 scratch.dofs.push(dof);
-                scratch.u.push(at.displacement(dof));
+                let origin = self.origin(block, cell, k, axis);
+                scratch.u.push(self.moved(at, dof, origin));
             }
         }
     }
 
-    /// Adds the temperatures of nodes, where there are any.
-    fn heat(&self, nodes: &[NodeId], at: At<'_>, now: &mut Vec<f64>, at_start: &mut Vec<f64>) {
-        if let Some(field) = &self.temperature {
-            let present = nodes.iter();
-            now.extend(present.map(|&node| at.temperature(field, &self.step, node)));
-            at_start.extend(nodes.iter().map(|&node| field.at_start(node)));
+    /// u_0 of the k-th node of a cell along an axis.
+    fn origin(&self, block: &Cells, cell: usize, k: usize, axis: usize) -> f64 {
+        let ndim = self.layout.ndim();
+        let of_cell = block.part.origin(cell, block.nnode * ndim);
+        of_cell.get(k * ndim + axis).copied().unwrap_or_default()
+    }
+
+    /// The displacement that kernels see at an unknown with the displacement `origin` at u_0: that since then, (E18) and
+    /// (E20), or the whole one where a strain is taken off, (E19).
+    fn moved(&self, at: At<'_>, dof: Dof, origin: f64) -> f64 {
+        match (at, self.subtracts) {
+            (At::Trial(_), true) => at.displacement(dof),
+            (At::Trial(_), false) => at.displacement(dof) - origin,
+            (At::Start, true) => origin,
+            (At::Start, false) => 0.0,
         }
+    }
+
+    /// Where kernels see the k-th node of a cell at the start: X, or X + u_0 in (E20).
+    fn place(&self, block: &Cells, cell: usize, k: usize) -> Vec3 {
+        let node = block.nodes_of(cell)[k];
+        let mut place = self.reference[node as usize];
+        if self.kinematics == Kinematics::Finite && !block.part.is_natural() && !self.subtracts {
+            for axis in 0..self.layout.ndim() {
+                place[axis] += self.origin(block, cell, k, axis);
+            }
+        }
+        place
+    }
+
+    /// Adds the temperatures of the nodes of a cell, where there are any: those at present, and those that expansion counts
+    /// from.
+    fn heat(
+        &self,
+        block: &Cells,
+        cell: usize,
+        at: At<'_>,
+        now: &mut Vec<f64>,
+        at_start: &mut Vec<f64>,
+    ) {
+        let Some(field) = &self.temperature else {
+            return;
+        };
+        let since = block.part.since(cell);
+        let nodes = block.nodes_of(cell).iter();
+        let start = |node: NodeId| field.at_begin(since.unwrap_or(0), node);
+        now.extend(nodes.clone().map(|&node| match at {
+            At::Trial(_) => at.temperature(field, &self.step, node),
+            At::Start => start(node),
+        }));
+        at_start.extend(nodes.map(|&node| start(node)));
     }
 
     /// A cell without places and temperatures.
@@ -454,15 +531,14 @@ impl Solid {
         wanted: Wanted,
         scratch: &mut Scratch,
     ) -> Result<f64, TermError> {
-        let nodes = block.nodes_of(cell);
         self.locate(block, cell, at, scratch);
         scratch.x.clear();
-        let places = nodes.iter().map(|&node| self.reference[node as usize]);
+        let places = (0..block.nnode).map(|k| self.place(block, cell, k));
         scratch.x.extend(places);
         scratch.temperature.clear();
         scratch.temperature_at_start.clear();
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
-        self.heat(nodes, at, now, at_start);
+        self.heat(block, cell, at, now, at_start);
         let element = Element {
             x: &scratch.x,
             u: &scratch.u,
@@ -562,19 +638,21 @@ impl Term for Solid {
         };
         Properties {
             lifetime,
+            elements: self.elements_id(),
             ..Properties::new(symmetry, Part::Bulk)
         }
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
         for block in &self.blocks {
-            for cell in block.nodes.chunks_exact(block.nnode) {
-                out.bulk(cell);
+            let cells = block.nodes.chunks_exact(block.nnode).enumerate();
+            for (_, nodes) in cells.filter(|(cell, _)| block.part.is_active(*cell)) {
+                out.bulk(nodes);
             }
         }
     }
 
-    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
         let kinematics = if phase.step.nonlinear {
             Kinematics::Finite
         } else {
@@ -583,13 +661,21 @@ impl Term for Solid {
         self.locking(kinematics).map_err(|e| TermError::Refused {
             message: e.to_string(),
         })?;
-        self.kinematics = kinematics;
+        let begins = phase.increment.is_none();
+        if begins {
+            // forces of what is removed are those of the step before
+            self.change_cells(phase.step.number, from)?;
+        }
         self.step = phase.step;
-        Ok(())
+        self.set_kinematics(kinematics);
+        match begins {
+            true => self.take_part(from),
+            false => Ok(()),
+        }
     }
 
     fn nchunk(&self) -> usize {
-        self.chunks.len()
+        self.chunks.len() + self.plan.as_ref().map_or(0, Plan::nchunk)
     }
 
     fn evaluate(
@@ -604,6 +690,10 @@ impl Term for Solid {
             Order::Residual => Wanted::Forces,
             Order::Tangent => Wanted::Stiffness,
         };
+        if let Some(plan) = self.plan.as_ref().filter(|_| chunk >= self.chunks.len()) {
+            plan.exert(&self.layout, &self.step, trial.time, out);
+            return Ok(());
+        }
         let scratch = work.of::<Scratch>();
         let at = At::Trial(trial);
         self.each(chunk, at, wanted, scratch, |block, cell, _, s| {
@@ -621,6 +711,9 @@ impl Term for Solid {
         trial: &State,
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
+        if let Some(plan) = self.plan.as_ref().filter(|_| chunk >= self.chunks.len()) {
+            return Ok(Some(plan.energy(&self.step, trial)));
+        }
         let (at, mut total) = (At::Trial(trial), 0.0);
         let scratch = work.of::<Scratch>();
         self.each(chunk, at, Wanted::Forces, scratch, |_, _, energy, _| {
@@ -646,11 +739,19 @@ impl Term for Solid {
                 let (number, first, last) = self.chunks[chunk];
                 let (block, samples) = (&self.blocks[number], samples?);
                 let npoint = block.points.rule.npoint();
-                for (cell, samples) in (first..last).zip(samples.chunks_exact(npoint)) {
+                let active = (first..last).filter(|cell| block.part.is_active(*cell));
+                for (cell, samples) in active.zip(samples.chunks_exact(npoint)) {
                     let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
                     report::add(frame, id, nodes, &block.extrapolation, samples);
                 }
             }
+        }
+        if self.plan.is_some() {
+            let cells = self.blocks.iter().flat_map(|block| {
+                let ids = block.ids.iter().enumerate();
+                ids.map(|(cell, &id)| (id, block.part.is_active(cell)))
+            });
+            cells.for_each(|(id, is_active)| frame.set_active(id, is_active));
         }
         if let Some(field) = &self.temperature {
             frame.temperature.resize(frame.stress.len(), 0.0);

@@ -10,17 +10,20 @@
 //!
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
+use super::activation::{Part, Plan, inverted};
 use super::at::At;
 use super::{SolidError, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
-    Archive, ArchiveError, Capabilities, Dof, Frame, Idealisation, InitialStiffness, Layout,
-    NodalField, Order, Part, PatternSink, Phase, PointSample, Properties, Sampled, Samples, Sink,
-    State, StepContext, Stored, Symmetry, Term, TermError, Work,
+    Activity, Archive, ArchiveError, Capabilities, CellChange, Dof, Frame, Idealisation,
+    InitialStiffness, Layout, NodalField, Order, Part as Share, PatternSink, Phase, PointSample,
+    Properties, Sampled, Samples, Sink, State, StepContext, Stored, Symmetry, Term, TermError,
+    Work,
 };
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Bars evaluated together.
@@ -44,6 +47,12 @@ pub struct Truss {
     undeformed: Vec<f64>,
     // accepted history of all points, bar by bar
     history: Vec<f64>,
+    // whether the law is linear in the strain
+    linear: bool,
+    // which bars take part
+    part: Part,
+    // none where all always do
+    plan: Option<Plan>,
 }
 
 /// What bars are made from.
@@ -127,6 +136,7 @@ impl Truss {
         if space == Idealisation::Axisymmetric {
             return Err(SolidError::BarOfRevolution { body });
         }
+        let linear = material.linearity().is_linear();
         let material = Reduced::uniaxial(material);
         let mut truss = Self {
             name: body.clone(),
@@ -141,6 +151,9 @@ impl Truss {
             undeformed: vec![0.0; material.nhistory()],
             history: Vec::new(),
             material: Box::new(material),
+            linear,
+            part: Part::default(),
+            plan: None,
         };
         truss.material.start(&mut truss.undeformed);
         for &id in cells {
@@ -162,7 +175,7 @@ impl Truss {
                 history: truss.history.len(),
             };
             let npoint = element.full_rule().npoint();
-            let long = (0..npoint).all(|p| truss.tangent(&bar, p).is_some());
+            let long = (0..npoint).all(|p| truss.tangent(&bar, None, p).is_some());
             let what = if area.is_nan() || area < 0.0 {
                 "cross-section"
             } else {
@@ -181,48 +194,99 @@ impl Truss {
 
     /// Derivatives of the shape functions by the reference coordinate at a point, and `dX/dξ` as unit vector and length;
     /// `None` where there is no length.
-    fn tangent(&self, bar: &Bar, point: usize) -> Option<([f64; 3], Vec3, f64)> {
+    fn tangent(
+        &self,
+        bar: &Bar,
+        number: Option<usize>,
+        point: usize,
+    ) -> Option<([f64; 3], Vec3, f64)> {
         let mut dn = [Vec3::ZERO; 3];
         let n = bar.nodes.len();
         bar.element
             .dshape(&bar.element.full_rule().points[point], &mut dn[..n]);
-        let at = |(&node, dn): (&NodeId, &Vec3)| self.reference[node as usize] * dn.x;
-        let along: Vec3 = bar.nodes.iter().zip(&dn).map(at).sum();
+        let origin = number.map(|number| self.origin(number)).unwrap_or_default();
+        let moves = self.kinematics == Kinematics::Finite && !self.subtracts();
+        let ndim = self.layout.ndim();
+        let along = bar
+            .nodes
+            .iter()
+            .zip(&dn)
+            .enumerate()
+            .map(|(k, (&node, dn))| {
+                let mut place = self.reference[node as usize];
+                for (axis, u) in origin.iter().skip(k * ndim).take(ndim).enumerate() {
+                    place[axis] += if moves { *u } else { 0.0 };
+                }
+                place * dn.x
+            });
+        let along: Vec3 = along.sum();
         let unit = along.normalized()?;
         Some((dn.map(|d| d.x), unit, along.norm()))
     }
 
-    /// (E14).
-    fn point(&self, bar: &Bar, point: usize, at: At<'_>) -> Option<Point> {
-        let (dn, unit, length) = self.tangent(bar, point)?;
+    /// Whether the strain at which bars were added is taken off, (E19).
+    fn subtracts(&self) -> bool {
+        self.kinematics == Kinematics::Finite && self.linear
+    }
+
+    /// u_0 of a bar; nothing where it is zero.
+    fn origin(&self, number: usize) -> &[f64] {
+        self.part.origin(number, self.width())
+    }
+
+    /// The most unknowns of a bar here: those of shorter ones are followed by zeros.
+    fn width(&self) -> usize {
+        3 * self.layout.ndim()
+    }
+
+    /// (E14), and the strain that is taken off.
+    fn point(&self, number: usize, point: usize, at: At<'_>) -> Option<(Point, f64)> {
+        let bar = self.bars.get(number)?;
+        let (dn, unit, length) = self.tangent(bar, Some(number), point)?;
         let slope = dn.map(|d| d / length);
-        let mut h = Vec3::ZERO;
-        for (&node, slope) in bar.nodes.iter().zip(slope) {
-            for axis in 0..self.layout.ndim() {
-                h[axis] += slope * at.displacement(self.layout.node(node, axis));
+        let (origin, subtracts) = (self.origin(number), self.subtracts());
+        let ndim = self.layout.ndim();
+        let (mut h, mut h_0) = (Vec3::ZERO, Vec3::ZERO);
+        for (k, (&node, slope)) in bar.nodes.iter().zip(slope).enumerate() {
+            for axis in 0..ndim {
+                let origin = origin.get(k * ndim + axis).copied().unwrap_or_default();
+                let moved = match (at, subtracts) {
+                    (At::Trial(_), true) => at.displacement(self.layout.node(node, axis)),
+                    (At::Trial(_), false) => at.displacement(self.layout.node(node, axis)) - origin,
+                    (At::Start, true) => origin,
+                    (At::Start, false) => 0.0,
+                };
+                h[axis] += slope * moved;
+                h_0[axis] += slope * origin;
             }
         }
         let finite = self.kinematics == Kinematics::Finite;
-        Some(Point {
+        let strain = |h: Vec3| unit.dot(h) + if finite { 0.5 * h.norm_squared() } else { 0.0 };
+        let of_point = Point {
             slope,
             weight: bar.element.full_rule().weights[point] * length,
             unit,
             along: if finite { unit + h } else { unit },
-            strain: unit.dot(h) + if finite { 0.5 * h.norm_squared() } else { 0.0 },
-        })
+            strain: strain(h),
+        };
+        Some((of_point, if subtracts { strain(h_0) } else { 0.0 }))
     }
 
     /// The temperatures at a point: that of the present, and that at the start.
-    fn temperature(&self, bar: &Bar, point: usize, at: At<'_>) -> [f64; 2] {
-        let Some(field) = &self.temperature else {
+    fn temperature(&self, number: usize, point: usize, at: At<'_>) -> [f64; 2] {
+        let (Some(field), Some(bar)) = (&self.temperature, self.bars.get(number)) else {
             return [0.0; 2];
         };
         let mut shape = [0.0; 3];
         let n = bar.nodes.len();
+        let since = self.part.since(number).unwrap_or(0);
         bar.element
             .shape(&bar.element.full_rule().points[point], &mut shape[..n]);
-        let now = |(&node, n): (&NodeId, f64)| n * at.temperature(field, &self.step, node);
-        let start = |(&node, n): (&NodeId, f64)| n * field.at_start(node);
+        let start = |(&node, n): (&NodeId, f64)| n * field.at_begin(since, node);
+        let now = |(&node, n): (&NodeId, f64)| match at {
+            At::Trial(_) => n * at.temperature(field, &self.step, node),
+            At::Start => start((&node, n)),
+        };
         let nodes = || bar.nodes.iter().zip(shape);
         [nodes().map(now).sum(), nodes().map(start).sum()]
     }
@@ -230,12 +294,15 @@ impl Truss {
     /// Hands every point of a bar with the material's answer to `take`; `new` becomes the bar's history.
     fn points(
         &self,
-        bar: &Bar,
+        number: usize,
         at: At<'_>,
         order: MaterialOrder,
         new: &mut Vec<f64>,
         mut take: impl FnMut(&Point, &Response, &[f64]),
     ) -> Result<(), TermError> {
+        let Some(bar) = self.bars.get(number) else {
+            return Ok(());
+        };
         let nhistory = self.material.nhistory();
         let npoint = bar.element.full_rule().npoint();
         new.resize(npoint * nhistory, 0.0);
@@ -246,11 +313,11 @@ impl Truss {
                 element: bar.label,
                 ratio: 0.0,
             };
-            let point = self.point(bar, p, at).ok_or_else(inverted)?;
-            let [temperature, temperature_at_start] = self.temperature(bar, p, at);
+            let (point, taken_off) = self.point(number, p, at).ok_or_else(inverted)?;
+            let [temperature, temperature_at_start] = self.temperature(number, p, at);
             let strain = Strain {
                 kinematics: self.kinematics,
-                value: Sym3::diagonal(point.strain, 0.0, 0.0),
+                value: Sym3::diagonal(point.strain - taken_off, 0.0, 0.0),
                 temperature,
                 temperature_at_start,
             };
@@ -275,11 +342,12 @@ impl Truss {
     /// (E15), (E16).
     fn local(
         &self,
-        bar: &Bar,
+        number: usize,
         at: At<'_>,
         order: MaterialOrder,
         new: &mut Vec<f64>,
     ) -> Result<Local, TermError> {
+        let bar = &self.bars[number];
         let ndim = self.layout.ndim();
         let n = bar.nodes.len() * ndim;
         let finite = self.kinematics == Kinematics::Finite;
@@ -288,7 +356,7 @@ impl Truss {
             stiffness: [0.0; MOST * MOST],
             energy: 0.0,
         };
-        self.points(bar, at, order, new, |point, response, _| {
+        self.points(number, at, order, new, |point, response, _| {
             let volume = point.weight * self.area;
             let stress = response.stress.xx();
             let modulus = response.tangent[0][0];
@@ -331,9 +399,9 @@ impl Truss {
             Order::Residual => (MaterialOrder::Stress, 0),
             Order::Tangent => (MaterialOrder::Tangent, 1),
         };
-        for bar in self.chunk(chunk) {
-            let local = self.local(bar, at, order, &mut scratch.new)?;
-            let layout = &self.layout;
+        for number in self.chunk(chunk) {
+            let (bar, layout) = (&self.bars[number], &self.layout);
+            let local = self.local(number, at, order, &mut scratch.new)?;
             let of_node = |&node: &NodeId| (0..layout.ndim()).map(move |c| layout.node(node, c));
             scratch.dofs.clear();
             scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
@@ -386,11 +454,110 @@ impl Truss {
         }
     }
 
-    fn chunk(&self, chunk: usize) -> &[Bar] {
-        let end = (chunk + 1) * CHUNK;
-        self.bars
-            .get(chunk * CHUNK..end.min(self.bars.len()))
-            .unwrap_or(&[])
+    /// The bars of a chunk that take part.
+    fn chunk(&self, chunk: usize) -> impl Iterator<Item = usize> + '_ {
+        let end = ((chunk + 1) * CHUNK).min(self.bars.len());
+        (chunk * CHUNK..end).filter(|&number| self.part.is_active(number))
+    }
+
+    /// Chunks of bars, without that of forces that fall to zero.
+    fn nchunk_of_bars(&self) -> usize {
+        self.bars.len().div_ceil(CHUNK)
+    }
+
+    /// Bars take part as this says.
+    pub fn set_activity(&mut self, activity: Arc<Activity>) {
+        if self.bars.iter().any(|bar| activity.names(bar.id)) {
+            self.plan = Some(Plan::new(activity));
+            self.set_active();
+        }
+    }
+
+    fn set_active(&mut self) {
+        if let Some(plan) = &self.plan {
+            let (bars, step) = (&self.bars, plan.step());
+            let is_active = |k: usize| {
+                bars.get(k)
+                    .is_none_or(|bar| plan.activity.is_active(bar.id, step))
+            };
+            self.part.set_active(bars.len(), is_active);
+        }
+    }
+
+    /// Makes the changes of a step that begins.
+    fn change_bars(&mut self, step: usize, from: &State) -> Result<(), TermError> {
+        let Some(plan) = &mut self.plan else {
+            return Ok(());
+        };
+        if !plan.begins(step) {
+            return Ok(());
+        }
+        let activity = plan.activity.clone();
+        let mut forces: BTreeMap<NodeId, [f64; 3]> = BTreeMap::new();
+        let ndim = self.layout.ndim();
+        for number in 0..self.bars.len() {
+            let id = self.bars[number].id;
+            match activity.change(id, step) {
+                Some(CellChange::Removed { ramp: true }) if step > 0 => {
+                    let order = MaterialOrder::Stress;
+                    let local = self.local(number, At::Trial(from), order, &mut Vec::new())?;
+                    let of_nodes = local.force.chunks_exact(ndim);
+                    for (&node, force) in self.bars[number].nodes.iter().zip(of_nodes) {
+                        let to = forces.entry(node).or_default();
+                        to.iter_mut().zip(force).for_each(|(to, f)| *to += f);
+                    }
+                }
+                Some(CellChange::Added { strain_free: true }) => {
+                    let mut u = vec![0.0; self.width()];
+                    let bar = &self.bars[number];
+                    for (k, &node) in bar.nodes.iter().enumerate() {
+                        for axis in 0..ndim {
+                            u[k * ndim + axis] = from.u[self.layout.node(node, axis) as usize];
+                        }
+                    }
+                    self.part.add(number, self.bars.len(), step, &u);
+                    let n = bar.element.full_rule().npoint() * self.undeformed.len();
+                    if n > 0 {
+                        let history = &mut self.history[bar.history..bar.history + n];
+                        let points = history.chunks_exact_mut(self.undeformed.len());
+                        points.for_each(|to| to.copy_from_slice(&self.undeformed));
+                    }
+                }
+                _ => {}
+            }
+        }
+        if let Some(plan) = &mut self.plan {
+            plan.fade(&self.layout, &forces);
+        }
+        Ok(())
+    }
+
+    /// Refuses bars that are added where they have no length.
+    fn judge_added(&self, step: usize) -> Result<(), TermError> {
+        let Some(plan) = &self.plan else {
+            return Ok(());
+        };
+        let is_added = |id: CellId| {
+            matches!(
+                plan.activity.change(id, step),
+                Some(CellChange::Added { .. })
+            )
+        };
+        let has_length = |number: usize, bar: &Bar| {
+            let npoint = bar.element.full_rule().npoint();
+            (0..npoint).all(|p| self.tangent(bar, Some(number), p).is_some())
+        };
+        let bars = self.bars.iter().enumerate();
+        let lost = bars.filter(|(number, bar)| is_added(bar.id) && !has_length(*number, bar));
+        let labels: Vec<u64> = lost.map(|(_, bar)| bar.label).collect();
+        match labels.is_empty() {
+            true => Ok(()),
+            false => Err(inverted(&self.name, &labels)),
+        }
+    }
+
+    fn stored_plan(&self) -> String {
+        format!("truss.{}.activity", self.name)
     }
 
     fn archived(&self) -> String {
@@ -417,25 +584,39 @@ impl Term for Truss {
     }
 
     fn properties(&self) -> Properties {
-        Properties::new(Symmetry::Definite, Part::Bulk)
+        Properties {
+            elements: self.plan.as_ref().map_or(0, Plan::epoch),
+            ..Properties::new(Symmetry::Definite, Share::Bulk)
+        }
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
-        self.bars.iter().for_each(|bar| out.bulk(&bar.nodes));
+        let bars = self.bars.iter().enumerate();
+        let active = bars.filter(|(number, _)| self.part.is_active(*number));
+        active.for_each(|(_, bar)| out.bulk(&bar.nodes));
     }
 
-    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
+        let begins = phase.increment.is_none();
+        if begins {
+            // forces of what is removed are those of the step before
+            self.change_bars(phase.step.number, from)?;
+        }
         self.kinematics = if phase.step.nonlinear && !self.small {
             Kinematics::Finite
         } else {
             Kinematics::Small
         };
         self.step = phase.step;
+        if begins {
+            self.set_active();
+            self.judge_added(phase.step.number)?;
+        }
         Ok(())
     }
 
     fn nchunk(&self) -> usize {
-        self.bars.len().div_ceil(CHUNK)
+        self.nchunk_of_bars() + self.plan.as_ref().map_or(0, Plan::nchunk)
     }
 
     fn evaluate(
@@ -446,6 +627,14 @@ impl Term for Truss {
         work: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
+        if let Some(plan) = self
+            .plan
+            .as_ref()
+            .filter(|_| chunk >= self.nchunk_of_bars())
+        {
+            plan.exert(&self.layout, &self.step, trial.time, out);
+            return Ok(());
+        }
         self.add(chunk, At::Trial(trial), order, work, out)
     }
 
@@ -455,11 +644,18 @@ impl Term for Truss {
         trial: &State,
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
+        if let Some(plan) = self
+            .plan
+            .as_ref()
+            .filter(|_| chunk >= self.nchunk_of_bars())
+        {
+            return Ok(Some(plan.energy(&self.step, trial)));
+        }
         let scratch = work.of::<Scratch>();
         let (at, mut total) = (At::Trial(trial), 0.0);
-        for bar in self.chunk(chunk) {
+        for number in self.chunk(chunk) {
             let order = MaterialOrder::Stress;
-            total += self.local(bar, at, order, &mut scratch.new)?.energy;
+            total += self.local(number, at, order, &mut scratch.new)?.energy;
         }
         Ok(Some(total))
     }
@@ -468,10 +664,16 @@ impl Term for Truss {
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let finite = self.kinematics == Kinematics::Finite;
         let (at, mut new) = (At::Trial(state), Vec::new());
-        for bar in &self.bars {
+        for (number, bar) in self.bars.iter().enumerate() {
+            if self.plan.is_some() {
+                frame.set_active(bar.id, self.part.is_active(number));
+            }
+            if !self.part.is_active(number) {
+                continue;
+            }
             let mut mean = report::CellMeans::default();
             let order = MaterialOrder::Stress;
-            self.points(bar, at, order, &mut new, |point, response, history| {
+            self.points(number, at, order, &mut new, |point, response, history| {
                 let strain = match finite {
                     true => dyad(point.along) * (0.5 * (2.0 * point.strain).ln_1p()),
                     false => dyad(point.along) * point.strain,
@@ -499,9 +701,11 @@ impl Term for Truss {
 }
 
 impl InitialStiffness for Truss {
-    /// Undeformed bars have the same stiffness in all steps.
+    /// Undeformed bars have the same stiffness in all steps with the same bars.
     fn id(&self) -> u64 {
-        0
+        let epoch = self.plan.as_ref().map_or(0, Plan::epoch);
+        // bars that were added have it at another strain
+        2 * epoch + u64::from(epoch > 0 && self.kinematics == Kinematics::Finite)
     }
 
     fn add_initial(
@@ -510,7 +714,10 @@ impl InitialStiffness for Truss {
         work: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
-        self.add(chunk, At::Start, Order::Tangent, work, out)
+        match chunk < self.nchunk_of_bars() {
+            true => self.add(chunk, At::Start, Order::Tangent, work, out),
+            false => Ok(()),
+        }
     }
 
     fn is_initial(&self, _: &State) -> bool {
@@ -522,9 +729,14 @@ impl Stored for Truss {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         let mut next = Vec::with_capacity(self.history.len());
         let (at, mut new) = (At::Trial(state), Vec::new());
-        for bar in &self.bars {
-            self.points(bar, at, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
-            next.extend_from_slice(&new);
+        for (number, bar) in self.bars.iter().enumerate() {
+            if self.part.is_active(number) {
+                self.points(number, at, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
+                next.extend_from_slice(&new);
+            } else {
+                let n = bar.element.full_rule().npoint() * self.undeformed.len();
+                next.extend_from_slice(&self.history[bar.history..bar.history + n]);
+            }
         }
         self.history = next;
         Ok(())
@@ -532,10 +744,22 @@ impl Stored for Truss {
 
     fn save(&self, out: &mut Archive) {
         out.put(self.archived(), &self.history);
+        if let Some(plan) = &self.plan {
+            plan.save(&self.stored_plan(), out);
+            self.part.save(&self.stored_plan(), out);
+        }
     }
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
-        from.get(&self.archived(), &mut self.history)
+        from.get(&self.archived(), &mut self.history)?;
+        let (name, nbar) = (self.stored_plan(), self.bars.len());
+        let width = self.width();
+        if let Some(plan) = &mut self.plan {
+            plan.load(&name, from)?;
+            self.part.load(&name, from, nbar, nbar * width)?;
+        }
+        self.set_active();
+        Ok(())
     }
 }
 
@@ -543,12 +767,13 @@ impl Sampled for Truss {
     fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
         let at = At::Trial(state);
         let (mut new, mut samples) = (Vec::new(), Vec::new());
-        let wanted = |bar: &&Bar| cells.binary_search(&bar.id).is_ok();
-        for bar in self.bars.iter().filter(wanted) {
+        let wanted = |(number, bar): &(usize, &Bar)| {
+            cells.binary_search(&bar.id).is_ok() && self.part.is_active(*number)
+        };
+        for (number, bar) in self.bars.iter().enumerate().filter(wanted) {
             let order = MaterialOrder::Stress;
-            self.points(bar, at, order, &mut new, |point, response, history| {
-                let number = samples.len();
-                let temperature = self.temperature(bar, number, at);
+            self.points(number, at, order, &mut new, |point, response, history| {
+                let temperature = self.temperature(number, samples.len(), at);
                 samples.push(self.point_sample(point, response, history, temperature));
             })?;
             out.push(bar.id, bar.element.full_rule(), samples.drain(..));

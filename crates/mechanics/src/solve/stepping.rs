@@ -312,7 +312,9 @@ impl Stepper {
             term.begin(&phase, &self.state)?;
         }
         self.newton.step = context;
-        self.newton.assembler.begin_step();
+        let (layout, elimination) = (&system.layout, &system.elimination);
+        let assembler = &mut self.newton.assembler;
+        self.newton.coupled_more |= assembler.begin_step(layout, elimination, &system.terms);
         let prescribed = &mut self.newton.prescribed;
         prescribed.clear();
         prescribed.resize(system.layout.ndof(), false);

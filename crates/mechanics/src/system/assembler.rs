@@ -50,6 +50,8 @@ pub struct Assembler {
     pub(super) lasts: Lifetime,
     /// Counts what it is the same in at most: steps, or increments.
     pub(super) period: u64,
+    /// The elements that the bulk has places for, by [`Properties::elements`](super::Properties::elements).
+    pub(super) built_for: u64,
 }
 
 /// Cliques of a pattern, as they come.
@@ -64,6 +66,12 @@ pub(super) struct Cliques<'a> {
 }
 
 impl Cliques<'_> {
+    /// The pattern of the bulk.
+    fn of_bulk(&self) -> BlockPattern {
+        let (nodes, offsets) = (&self.bulk, &self.bulk_offsets);
+        BlockPattern::from_cliques(self.layout.nnode(), self.layout.ndim(), nodes, offsets)
+    }
+
     /// The pattern of the interface.
     fn of_interface(&self) -> Pattern {
         let (dofs, offsets) = (&self.interface, &self.interface_offsets);
@@ -99,16 +107,10 @@ impl Assembler {
     #[must_use]
     pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
         let cliques = collect(layout, elimination, terms);
-        let bulk = BlockPattern::from_cliques(
-            layout.nnode(),
-            layout.ndim(),
-            &cliques.bulk,
-            &cliques.bulk_offsets,
-        );
-        Self::with(bulk, &cliques, terms)
+        Self::with(cliques.of_bulk(), &cliques, terms)
     }
 
-    /// Prepares the assembly of the same terms as if for the first time: their bulk never changes.
+    /// Prepares the assembly of the same terms as if for the first time: their bulk is the same.
     #[must_use]
     pub fn renewed(
         self,
@@ -129,14 +131,29 @@ impl Assembler {
             expanded: Expanded::default(),
             lasts: Lifetime::State,
             period: 0,
+            built_for: 0,
         };
+        assembler.built_for = elements_of(terms);
         assembler.begin_increment(terms);
         assembler
     }
 
-    /// A step begins: what terms are may change.
-    pub fn begin_step(&mut self) {
+    /// A step begins: what terms are may change, and which elements there are. Says whether the pattern was made again.
+    pub fn begin_step(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+    ) -> bool {
         self.period += 1;
+        let now = elements_of(terms);
+        if std::mem::replace(&mut self.built_for, now) == now {
+            return false;
+        }
+        self.bulk = collect(layout, elimination, terms).of_bulk();
+        self.tasks.clear();
+        self.shared = None;
+        true
     }
 
     /// Takes up the chunks of the terms, whose numbers may be others in each increment.
@@ -566,6 +583,14 @@ impl Assembler {
         }
         Ok(Some(total))
     }
+}
+
+/// Identifies the elements that take part. Equal numbers mean equal elements.
+fn elements_of(terms: &[Box<dyn Term>]) -> u64 {
+    bulk(terms).fold(0, |all, term| {
+        all.wrapping_mul(MIX)
+            .wrapping_add(term.properties().elements)
+    })
 }
 
 pub(super) fn collect<'a>(

@@ -88,6 +88,14 @@ impl NodalField {
         value.copied().unwrap_or(0.0)
     }
 
+    /// The value at a node when a step begins.
+    #[must_use]
+    pub fn at_begin(&self, step: usize, node: NodeId) -> f64 {
+        let row = self.ends.get(step).or(self.ends.last());
+        let value = row.and_then(|row| row.get(node as usize));
+        value.copied().unwrap_or(0.0)
+    }
+
     /// The value at a node at a time within a step.
     #[must_use]
     pub fn at(&self, step: &StepContext, time: f64, node: NodeId) -> f64 {

@@ -260,6 +260,8 @@ pub struct Frame {
     pub cell_strain: Vec<Vec<Sym3>>,
     /// Equivalent plastic strain of each cell, likewise; empty where no material has one.
     pub cell_plastic_strain: Vec<Vec<f64>>,
+    /// Whether each cell takes part, likewise; empty where all cells always do.
+    pub active: Vec<Vec<bool>>,
     /// Values at the integration points of the cells that are wanted.
     pub samples: Samples,
     /// Temperature of each node; empty where there are none.
@@ -332,6 +334,18 @@ pub struct RigidFrame {
 }
 
 impl Frame {
+    /// Says whether a cell takes part.
+    pub(crate) fn set_active(&mut self, cell: CellId, is_active: bool) {
+        if self.active.is_empty() {
+            let all = self.cell_stress.iter().map(|block| vec![true; block.len()]);
+            self.active = all.collect();
+        }
+        let block = self.active.get_mut(cell.block as usize);
+        if let Some(to) = block.and_then(|block| block.get_mut(cell.index as usize)) {
+            *to = is_active;
+        }
+    }
+
     /// A frame with room for a mesh.
     #[must_use]
     pub fn new(nnode: usize, ncell: &[usize]) -> Self {

@@ -37,6 +37,7 @@
 //!
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
 
+mod activity;
 mod advance;
 mod archive;
 mod assembler;
@@ -65,6 +66,7 @@ mod term;
 mod tests;
 mod whole;
 
+pub use activity::{Activity, CellChange};
 pub use archive::{Archive, ArchiveError};
 pub use assembler::Assembler;
 pub use assembly::Assembly;

@@ -17,7 +17,7 @@ pub enum Order {
 /// Where the stiffness of a term belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Solids: dofs come in blocks of a node, the pattern never changes.
+    /// Solids: dofs come in blocks of a node; the pattern is the same as long as the elements are.
     Bulk,
     /// Contact rows, couplings, springs; fields besides the displacement.
     Interface,

@@ -14,6 +14,9 @@ pub struct Properties {
     pub role: Role,
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     pub has_saddle: bool,
+    /// Identifies the elements that take part. Equal numbers mean equal elements, and with them an equal pattern of the
+    /// bulk.
+    pub elements: u64,
 }
 
 impl Properties {
@@ -26,6 +29,7 @@ impl Properties {
             lifetime: Lifetime::State,
             role: Role::Internal,
             has_saddle: false,
+            elements: 0,
         }
     }
 

@@ -83,6 +83,8 @@ impl Volume {
             &self.of_cells(&frame.cell_strain),
         );
         let plastic = self.of_cells(&frame.cell_plastic_strain);
+        let active = self.of_cells(&frame.active).into_iter().map(i8::from);
+        let active: Vec<i8> = active.collect();
 
         let mut at_nodes = vec![
             Field::new("displacement", Values::Vector(&displacement)),
@@ -95,6 +97,9 @@ impl Volume {
             let values = Values::Scalar(&frame.plastic_strain);
             at_nodes.push(Field::new("plastic_strain", values));
             in_cells.push(Field::new("plastic_strain", Values::Scalar(&plastic)));
+        }
+        if !frame.active.is_empty() {
+            in_cells.push(Field::new("active", Values::Int8(&active)));
         }
         let others: Vec<Vec<[f64; 3]>> = frame.fields.iter().map(as_vectors).collect();
         for (field, vectors) in frame.fields.iter().zip(&others) {

@@ -5,7 +5,7 @@ use super::{constraints, loads};
 use signorini_io::case::Case;
 use signorini_io::diagnostic::{Code, Diagnostic, Place, codes};
 use signorini_mechanics::connector::ConnectorError;
-use signorini_mechanics::model::{ConstraintError, LoadError, ModelError, Unheld};
+use signorini_mechanics::model::{ActivityError, ConstraintError, LoadError, ModelError, Unheld};
 use signorini_mechanics::solid::SolidError;
 
 /// The message for what makes no model.
@@ -15,7 +15,7 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
     if let Some(place) = place {
         message = message.at(place, "");
     }
-    if let ModelError::FreeBodies(free) = error {
+    if let ModelError::FreeBodies(free) | ModelError::FreeLater { free, .. } = error {
         let motions = free.iter().map(|one| one.motion.clone());
         message = motions.fold(message, Diagnostic::about_motion);
         if free.len() > 1 {
@@ -64,6 +64,11 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             let place = first.and_then(|body| of_body(body));
             (&codes::FREE_BODY, place, "")
         }
+        ModelError::FreeLater { step, .. } => {
+            let found = case.steps.iter().find(|s| s.name.value == *step);
+            (&codes::FREE_BODY, found.map(|s| &s.place), "")
+        }
+        ModelError::Activity(error) => of_activity(case, error),
         ModelError::Clash { step, .. } => {
             let found = case.steps.iter().find(|s| s.name.value == *step);
             let help = "take the node out of one of the two sets";
@@ -90,6 +95,44 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
         | ModelError::PairCount { .. }
         | ModelError::BothRigid { .. } => of_contact_error(case, error),
     }
+}
+
+/// Elements that cannot be removed or added.
+fn of_activity<'a>(case: &'a Case, error: &ActivityError) -> Kind<'a> {
+    let (step, help) = match error {
+        ActivityError::Outside { step, .. } => {
+            (step, "name elements of a [[body]] with a material")
+        }
+        ActivityError::Rigid { step, .. } => (
+            step,
+            "remove the contacts of the rigid body:  [[step.contact]] with  active = false",
+        ),
+        ActivityError::Already {
+            step, adds: "adds", ..
+        } => (
+            step,
+            "elements take part from the start: remove them first, in the first step, say",
+        ),
+        ActivityError::Already { step, .. } => {
+            (step, "take the element out of one of the two groups")
+        }
+        ActivityError::Twice { step, .. } => {
+            (step, "take the element out of one of the two groups")
+        }
+        ActivityError::NothingLeft { step } => (step, "leave some elements"),
+        ActivityError::TotalOverParts { load } => {
+            let help = "give each part a load of its own, or write  traction  or  pressure";
+            return (&codes::BAD_LOAD, of_load(case, load), help);
+        }
+    };
+    let found = case.steps.iter().find(|s| s.name.value == *step);
+    let place = found.map(|s| {
+        let removed = s.deactivations.first().map(|one| &one.place);
+        removed
+            .or(s.activations.first().map(|one| &one.place))
+            .unwrap_or(&s.place)
+    });
+    (&codes::CONTRADICTION, place, help)
 }
 
 fn of_load<'a>(case: &'a Case, name: &str) -> Option<&'a Place> {
@@ -151,6 +194,7 @@ fn helps(case: &Case, error: &ModelError, help: &str) -> Vec<String> {
     let of_contact = |help: &str, contact: &str| format!("{help}  of contact \"{contact}\"");
     match error {
         ModelError::FreeBodies(_) => hold(case, first_step(case)),
+        ModelError::FreeLater { step, .. } => hold(case, step),
         ModelError::Unsuited {
             contact, remedy, ..
         } => vec![of_contact(&format!("write  {remedy}"), contact)],

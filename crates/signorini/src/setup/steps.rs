@@ -9,14 +9,18 @@ use super::names::Names;
 use super::nonlinear::nonlinear;
 use super::quoted;
 use crate::own::Own;
-use signorini_geometry::mesh::NodeId;
-use signorini_io::case::{self, Amplitude, Case, Directions, Factor, Name, Remedy, Step, TimeBase};
+use signorini_geometry::mesh::{CellId, NodeId};
+use signorini_io::case::{
+    self, Amplitude, Case, Directions, Factor, Name, Remedy, Step, StrainAt, TimeBase,
+};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::load::Course;
-use signorini_mechanics::model::{BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target};
+use signorini_mechanics::model::{
+    ActivityPart, BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target,
+};
 use signorini_mechanics::solve::{Increments, Motion};
-use signorini_mechanics::system::TimeFunction;
-use std::collections::BTreeMap;
+use signorini_mechanics::system::{CellChange, TimeFunction};
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 /// Steps, with what earlier ones leave behind.
@@ -37,6 +41,7 @@ impl Builder<'_> {
         let mut couplings = Vec::new();
         let mut contacts = Changes::new(self.case, self.own);
         let mut steps = Vec::new();
+        let owned = self.owned();
         let cases = &self.case.steps;
         for (number, (step, nonlinear)) in cases.iter().zip(nonlinear(cases)).enumerate() {
             let part = StepPart {
@@ -48,8 +53,9 @@ impl Builder<'_> {
                 loads: self.loads(number, step, &mut couplings, found),
                 contacts: contacts.of(step, found),
                 temperatures: self.temperatures(step, found),
+                activity: self.activity(step, &owned, found),
             };
-            let motions = part.changes.len() + part.temperatures.len();
+            let motions = part.changes.len() + part.temperatures.len() + part.activity.len();
             let changes = motions + part.loads.len() + step.contacts.len();
             // overlaps at the start are resolved in the first step
             let begins = number == 0 && !self.case.contacts.is_empty();
@@ -127,6 +133,48 @@ impl Builder<'_> {
             temperatures.extend(nodes.into_iter().map(|node| (node, part.value)));
         }
         temperatures
+    }
+
+    /// The cells of bodies, where steps ask for them.
+    fn owned(&self) -> HashSet<CellId> {
+        let mut steps = self.case.steps.iter();
+        if steps.all(|step| step.activations.is_empty() && step.deactivations.is_empty()) {
+            return HashSet::new();
+        }
+        let cells = self.bodies.iter().flat_map(|body| &body.cells);
+        cells.copied().collect()
+    }
+
+    /// Elements that are removed and added.
+    fn activity(
+        &self,
+        step: &Step,
+        owned: &HashSet<CellId>,
+        found: &mut Diagnostics,
+    ) -> Vec<ActivityPart> {
+        let added = step.activations.iter().map(|one| {
+            let strain_free = one.strain == StrainAt::Free;
+            (&one.group, CellChange::Added { strain_free })
+        });
+        let removed = step.deactivations.iter().map(|one| {
+            let ramp = one.ramp;
+            (&one.group, CellChange::Removed { ramp })
+        });
+        let mut parts = Vec::new();
+        for (group, change) in removed.chain(added) {
+            let Some(mut cells) = self.names.cells_of(group, found) else {
+                continue;
+            };
+            cells.retain(|cell| owned.contains(cell));
+            if cells.is_empty() {
+                let text = format!("{} has no elements of a body", quoted(group));
+                let one = Diagnostic::error(&codes::WRONG_KIND, text);
+                found.push(one.at(&group.place, "elements of bodies are removed and added"));
+                continue;
+            }
+            parts.push(ActivityPart { cells, change });
+        }
+        parts
     }
 
     /// Whether an increment that fails may be tried again in smaller pieces.

@@ -103,6 +103,27 @@ impl Builder<'_> {
                     place,
                 })
                 .collect(),
+            activations: fields
+                .tables("activate")
+                .into_iter()
+                .map(|(one, place)| Activation {
+                    group: one.text("group"),
+                    strain: match one.text("strain").value.as_str() {
+                        "keep" => StrainAt::Keep,
+                        _ => StrainAt::Free,
+                    },
+                    place,
+                })
+                .collect(),
+            deactivations: fields
+                .tables("deactivate")
+                .into_iter()
+                .map(|(one, place)| Deactivation {
+                    group: one.text("group"),
+                    ramp: one.flag("ramp"),
+                    place,
+                })
+                .collect(),
             temperatures: fields
                 .tables("temperature")
                 .into_iter()

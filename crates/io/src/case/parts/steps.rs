@@ -57,6 +57,10 @@ pub struct Step {
     pub contacts: Vec<ContactChange>,
     /// Bodies that are made of another material from now on.
     pub materials: Vec<MaterialChange>,
+    /// Elements that take part again.
+    pub activations: Vec<Activation>,
+    /// Elements that take no part any longer.
+    pub deactivations: Vec<Deactivation>,
     /// Temperatures.
     pub temperatures: Vec<Temperature>,
     /// Printed tables; none: those of the step before.
@@ -80,6 +84,8 @@ impl Step {
             loads: Vec::new(),
             contacts: Vec::new(),
             materials: Vec::new(),
+            activations: Vec::new(),
+            deactivations: Vec::new(),
             temperatures: Vec::new(),
             prints: None,
             place,
@@ -94,6 +100,38 @@ pub struct MaterialChange {
     pub group: Name,
     /// The material.
     pub material: Name,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Elements that take part again from a step on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Activation {
+    /// Their group or set.
+    pub group: Name,
+    /// What becomes of their strain.
+    pub strain: StrainAt,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// The strain of elements that take part again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StrainAt {
+    /// They have none where they are, and no history.
+    #[default]
+    Free,
+    /// That which they have.
+    Keep,
+}
+
+/// Elements that take no part from a step on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deactivation {
+    /// Their group or set.
+    pub group: Name,
+    /// Whether what they exert falls to zero over the step.
+    pub ramp: bool,
     /// Where it was written.
     pub place: Place,
 }

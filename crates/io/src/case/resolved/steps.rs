@@ -41,6 +41,8 @@ pub(super) fn step(step: &Step) -> Entries {
         ("load", tables(&step.loads, load)),
         ("contact", tables(&step.contacts, contact_change)),
         ("material", tables(&step.materials, material)),
+        ("activate", tables(&step.activations, activation)),
+        ("deactivate", tables(&step.deactivations, deactivation)),
         ("temperature", tables(&step.temperatures, temperature)),
     ];
     entries.extend(step.prints.as_ref().map(|prints| {
@@ -145,6 +147,24 @@ fn material(one: &MaterialChange) -> Entries {
     vec![
         ("group", (&one.group.value).into()),
         ("material", (&one.material.value).into()),
+    ]
+}
+
+fn activation(one: &Activation) -> Entries {
+    let strain = match one.strain {
+        StrainAt::Free => "free",
+        StrainAt::Keep => "keep",
+    };
+    vec![
+        ("group", (&one.group.value).into()),
+        ("strain", strain.into()),
+    ]
+}
+
+fn deactivation(one: &Deactivation) -> Entries {
+    vec![
+        ("group", (&one.group.value).into()),
+        ("ramp", one.ramp.into()),
     ]
 }
 

@@ -63,6 +63,8 @@ pub(super) static STEP: Table = Table {
             MATERIAL_CHANGE.doc,
         )
         .hints(&["section"]),
+        key("activate", Shape::Tables(&ACTIVATE), ACTIVATE.doc).hints(&["add", "birth"]),
+        key("deactivate", Shape::Tables(&DEACTIVATE), DEACTIVATE.doc).hints(&["remove", "death"]),
         key("temperature", Shape::Tables(&TEMPERATURE), TEMPERATURE.doc),
         key("print", Shape::Tables(&PRINT), PRINT.doc).hints(&["table", "dat"]),
     ],
@@ -248,6 +250,41 @@ static MATERIAL_CHANGE: Table = Table {
             .required()
             .hints(&["body", "on"]),
         key("material", Shape::Text, "its new material").required(),
+    ],
+    rules: &[],
+};
+
+/// What elements are removed and added by.
+const GROUP: Key = key("group", Shape::Text, "the group or set of elements")
+    .required()
+    .hints(&["on", "set", "body", "elements"]);
+
+static ACTIVATE: Table = Table {
+    heading: "[[step.activate]]",
+    doc: "elements that take part again from this step on, with their loads and contact faces",
+    keys: &[
+        GROUP,
+        key(
+            "strain",
+            Shape::Choice(&[word("free"), word("keep")]),
+            "free: without stress where they are now, as new; keep: with the strain and the history that they have",
+        )
+        .or(Default::Text("free")),
+    ],
+    rules: &[],
+};
+
+static DEACTIVATE: Table = Table {
+    heading: "[[step.deactivate]]",
+    doc: "elements that take no part from this step on, nor do their loads and contact faces",
+    keys: &[
+        GROUP,
+        key(
+            "ramp",
+            Shape::Flag,
+            "whether what they exert falls to zero over the step; false: it is gone at once",
+        )
+        .or(Default::Flag(true)),
     ],
     rules: &[],
 };

@@ -460,7 +460,10 @@ impl Interface {
 
     fn stored_name(&self) -> String {
         let pass = if self.parts.swapped { ".swapped" } else { "" };
-        format!("{}{pass}", self.parts.name)
+        match self.parts.variant {
+            0 => format!("{}{pass}", self.parts.name),
+            other => format!("{}{pass}.{other}", self.parts.name),
+        }
     }
 }
 

@@ -23,6 +23,8 @@ pub struct ContactPhase {
     pub active: bool,
     /// Its friction; `None`: none.
     pub friction: Option<(Arc<dyn FrictionLaw>, Stick)>,
+    /// Whether this interface stands for the contact, and not another one with other facets of it.
+    pub stands: bool,
 }
 
 /// What is added to the gap of a row.
@@ -110,6 +112,8 @@ pub struct InterfaceParts {
     pub smooths: bool,
     /// Whether it is the second pass of a contact, whose results belong to the first with the sides swapped.
     pub swapped: bool,
+    /// Which of the interfaces of a contact it is, whose facets take part only in some steps.
+    pub variant: usize,
 }
 
 impl InterfaceParts {
@@ -146,6 +150,7 @@ impl InterfaceParts {
             traction_tolerance: 1e-7,
             smooths: false,
             swapped: false,
+            variant: 0,
         }
     }
 

@@ -147,6 +147,9 @@ impl Footprint {
 
 impl Interface {
     pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        if self.phase().is_some_and(|phase| !phase.stands) {
+            return Ok(());
+        }
         let mut report = self.new_report(state);
         report.idle = self.idle_rows(state)?;
         // the second pass acts on the nodes of the first, which are its primary side

@@ -380,6 +380,7 @@ impl Scene {
             law: choice.law.into(),
             phases: vec![ContactPhase {
                 active: true,
+                stands: true,
                 friction: choice.friction,
             }],
             bond,

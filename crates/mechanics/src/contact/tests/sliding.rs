@@ -96,6 +96,7 @@ impl Slider {
             law: law.into(),
             phases: vec![ContactPhase {
                 active: true,
+                stands: true,
                 friction,
             }],
             ..InterfaceParts::new("led", pair, method, PENALTY)
@@ -373,6 +374,7 @@ fn a_step_without_friction_forgets() {
         let parts = InterfaceParts {
             phases: [true, false, true]
                 .map(|rubs| ContactPhase {
+                    stands: true,
                     active: true,
                     friction: rubs.then(|| (coulomb(), stick)),
                 })

@@ -5,9 +5,11 @@ mod open_edges;
 mod probe;
 mod sides;
 mod start;
+mod variants;
 
 pub(super) use sides::{Sides, Source};
 pub(super) use start::closed;
+pub(super) use variants::Variant;
 
 use super::{
     AreaPart, ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart,
@@ -17,6 +19,7 @@ use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{Multiplier, Scale};
 use crate::contact::{ContactPhase, InterfaceParts, Measure};
+use crate::system::Activity;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};
 use std::sync::Arc;
@@ -41,6 +44,8 @@ pub(super) struct Steps<'a> {
     /// What multipliers that friction limits may be off by, over themselves.
     pub traction_tol: f64,
     pub parts: &'a [ContactPart],
+    /// What each contact becomes where some of its facets take part only in some steps; else itself.
+    pub variants: Vec<Vec<Variant>>,
 }
 
 impl<'a> Steps<'a> {
@@ -48,9 +53,12 @@ impl<'a> Steps<'a> {
     pub fn new(
         parts: &'a [ContactPart],
         steps: &[StepPart],
+        activity: &Activity,
         [gap_tol, traction_tol]: [f64; 2],
     ) -> Self {
+        let variants = parts.iter().map(|part| variants::variants(part, activity));
         Self {
+            variants: variants.collect(),
             changes: steps.iter().map(|s| s.contacts.clone()).collect(),
             gap_tol,
             traction_tol,
@@ -58,12 +66,19 @@ impl<'a> Steps<'a> {
         }
     }
 
+    /// A variant of a contact.
+    pub fn variant(&self, contact: usize, number: usize) -> Option<&Variant> {
+        self.variants.get(contact)?.get(number)
+    }
+
     /// What becomes of a contact in each step.
-    fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<ContactPhase> {
+    fn phases(&self, contact: usize, variant: &Variant, penalty: f64) -> Vec<ContactPhase> {
+        let part = &variant.part;
         let friction = |f: &Option<FrictionPart>| f.as_ref().map(|f| friction(f, penalty));
         let mut now = ContactPhase {
             active: part.active,
             friction: friction(&part.friction),
+            stands: true,
         };
         let mut phases = Vec::new();
         for changes in &self.changes {
@@ -75,7 +90,12 @@ impl<'a> Steps<'a> {
                     now.friction = friction(changed);
                 }
             }
-            phases.push(now.clone());
+            let [stands, acts] = variant.in_step(phases.len());
+            phases.push(ContactPhase {
+                active: now.active && acts,
+                stands,
+                ..now.clone()
+            });
         }
         phases
     }
@@ -115,10 +135,11 @@ impl Context<'_> {
     pub(super) fn contact(
         &self,
         mut sides: Sides,
-        part: &ContactPart,
+        variant: &Variant,
         steps: &Steps<'_>,
         first_multiplier: usize,
     ) -> Result<(InterfaceParts, ContactSummary), ModelError> {
+        let part = &variant.part;
         let surface_error = |source| ModelError::Surface {
             contact: part.name.clone(),
             source,
@@ -188,7 +209,7 @@ impl Context<'_> {
             discretization: sides.discretization,
             pair: sides.pair,
             law: sides.law,
-            phases: steps.phases(sides.contact, part, penalty),
+            phases: steps.phases(sides.contact, variant, penalty),
             remembers_traction: part.remembers_traction,
             bond,
             bond_tangential: part.tie.and_then(|tie| tie.penalty_tangential),
@@ -205,6 +226,7 @@ impl Context<'_> {
             traction_tolerance: steps.traction_tol,
             smooths: part.smooths,
             swapped: sides.swapped,
+            variant: sides.variant,
         };
         Ok((parts, summary))
     }

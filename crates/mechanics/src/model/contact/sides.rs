@@ -43,6 +43,8 @@ pub(in crate::model) struct Sides {
     pub areas: Option<Areas>,
     pub sliding: SlidingRange,
     pub swapped: bool,
+    /// Which of the contact's variants it is a pass of.
+    pub variant: usize,
 }
 
 impl Source<'_> {
@@ -94,6 +96,7 @@ impl Source<'_> {
             areas: rows.areas,
             sliding: part.sliding,
             swapped,
+            variant: 0,
             facets: pass.primary.clone(),
             pair: pass.into_pair(),
         })

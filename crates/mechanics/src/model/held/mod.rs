@@ -36,7 +36,7 @@ use super::{BodyPart, CarrierPart, ModelError};
 use crate::model::label::label;
 use crate::system::{Elimination, Idealisation};
 use null_space::null_space;
-use signorini_geometry::mesh::{Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use unheld::{Motion, NCOMPONENT};
@@ -83,18 +83,21 @@ pub(super) struct Held<'a> {
     first_carrier: usize,
     rows: Rows,
     by_contact: Rows,
+    /// Whether carriers may move freely.
+    bodies_alone: bool,
 }
 
 impl<'a> Held<'a> {
-    /// The units of these bodies and carriers, which nothing holds yet.
+    /// The units of the cells of these bodies that take part, and of these carriers, which nothing holds yet.
     pub fn new(
         mesh: &'a Mesh,
         space: Idealisation,
         bodies: &[BodyPart],
         carriers: &[CarrierPart],
         elimination: &'a Elimination,
+        is_active: &dyn Fn(CellId) -> bool,
     ) -> Self {
-        let (mut units, part_of) = parts(mesh, bodies);
+        let (mut units, part_of) = parts(mesh, bodies, is_active);
         let first_carrier = units.len();
         for (carrier, body) in carriers.iter().zip(elimination.bodies()) {
             let mut unit = Unit::of_nodes(mesh, body.reference, &body.nodes);
@@ -116,10 +119,16 @@ impl<'a> Held<'a> {
             first_carrier,
             by_contact: rows.clone(),
             rows,
+            bodies_alone: false,
         };
         held.without_effect();
         held.common_nodes();
         held
+    }
+
+    /// Carriers may move freely: what they carry may take no part, and then they have no unknowns.
+    pub fn judge_bodies_alone(&mut self) {
+        self.bodies_alone = true;
     }
 
     /// Bodies that contact keeps from a motion.
@@ -149,6 +158,9 @@ impl<'a> Held<'a> {
         }
         let units = self.units.iter().zip(self.free()).zip(together);
         let of_unit = |((unit, motions), together): ((&Unit, Vec<Motion>), usize)| {
+            if self.bodies_alone && unit.carrier.is_some() {
+                return None;
+            }
             let motion = words::describe(self.space, unit.centre, unit.length, &motions)?;
             let names = unit.bodies.iter().filter_map(|&b| self.names.get(b));
             let is_whole =
@@ -293,7 +305,11 @@ impl Unit {
 }
 
 /// The deformable cells that hang together, and the unit of each node.
-fn parts(mesh: &Mesh, bodies: &[BodyPart]) -> (Vec<Unit>, Vec<Option<usize>>) {
+fn parts(
+    mesh: &Mesh,
+    bodies: &[BodyPart],
+    is_active: &dyn Fn(CellId) -> bool,
+) -> (Vec<Unit>, Vec<Option<usize>>) {
     let mut root: Vec<NodeId> = (0..mesh.nnode() as NodeId).collect();
     let mut body_of: BTreeMap<NodeId, BTreeSet<usize>> = BTreeMap::new();
     let deformable = || {
@@ -301,7 +317,7 @@ fn parts(mesh: &Mesh, bodies: &[BodyPart]) -> (Vec<Unit>, Vec<Option<usize>>) {
         bodies.filter(|(_, body)| body.kind.material().is_some())
     };
     for (_, body) in deformable() {
-        for &cell in &body.cells {
+        for &cell in body.cells.iter().filter(|cell| is_active(**cell)) {
             for pair in mesh.cell(cell).windows(2) {
                 unite(&mut root, pair[0], pair[1]);
             }
@@ -309,7 +325,7 @@ fn parts(mesh: &Mesh, bodies: &[BodyPart]) -> (Vec<Unit>, Vec<Option<usize>>) {
     }
     let mut in_part = vec![false; mesh.nnode()];
     for (number, body) in deformable() {
-        for &cell in &body.cells {
+        for &cell in body.cells.iter().filter(|cell| is_active(**cell)) {
             for &node in mesh.cell(cell) {
                 in_part[node as usize] = true;
             }

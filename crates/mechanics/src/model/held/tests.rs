@@ -76,7 +76,14 @@ impl Cubes {
     fn held(&self) -> Held<'_> {
         let (bodies, carriers) = (&self.bodies, &self.carriers);
         let space = Idealisation::Space;
-        Held::new(&self.mesh, space, bodies, carriers, &self.elimination)
+        Held::new(
+            &self.mesh,
+            space,
+            bodies,
+            carriers,
+            &self.elimination,
+            &|_| true,
+        )
     }
 }
 
@@ -291,7 +298,7 @@ fn squares(name: &str) -> Result<Vec<Unheld>, ModelError> {
     };
     let space = Idealisation::PlaneStrain { thickness: 1.0 };
     let elimination = Elimination::default();
-    let mut held = Held::new(&mesh, space, &bodies, &[], &elimination);
+    let mut held = Held::new(&mesh, space, &bodies, &[], &elimination, &|_| true);
     held.contact(
         &ContactPart::new(
             "c",
@@ -430,7 +437,7 @@ fn plane_and_axisymmetric_bodies_have_three_motions_and_one() {
     }];
     let elimination = Elimination::default();
     let plane = Idealisation::PlaneStrain { thickness: 1.0 };
-    let held = |space| Held::new(&mesh, space, &bodies, &[], &elimination);
+    let held = |space| Held::new(&mesh, space, &bodies, &[], &elimination, &|_| true);
     assert_eq!(
         motions(&held(plane)),
         ["slide in every direction and to turn"]
@@ -460,7 +467,14 @@ fn a_bar_that_turns_about_itself_does_not_move() {
         kind: solid(),
     }];
     let elimination = Elimination::default();
-    let mut held = Held::new(&mesh, Idealisation::Space, &bodies, &[], &elimination);
+    let mut held = Held::new(
+        &mesh,
+        Idealisation::Space,
+        &bodies,
+        &[],
+        &elimination,
+        &|_| true,
+    );
     fix(&mut held, &[0, 1], &[0, 1, 2]);
     assert!(motions(&held).is_empty());
 }

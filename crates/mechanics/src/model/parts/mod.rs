@@ -4,6 +4,7 @@ mod contact;
 
 pub use contact::*;
 
+use super::ActivityPart;
 use crate::connector::SpringLaw;
 use crate::load::{Acting, Course};
 use crate::material::Material;
@@ -341,6 +342,8 @@ pub struct StepPart {
     pub contacts: Vec<ContactChange>,
     /// Temperatures that nodes reach linearly over the step; others keep theirs.
     pub temperatures: Vec<(NodeId, f64)>,
+    /// Cells that take part again, or no longer, from its beginning on.
+    pub activity: Vec<ActivityPart>,
 }
 
 impl StepPart {
@@ -356,6 +359,7 @@ impl StepPart {
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }
     }
 }

@@ -1,0 +1,147 @@
+//! Which cells take part in which step, from what steps say.
+
+use super::error::ModelError;
+use super::label::cell_label;
+use super::parts::{BodyKind, BodyPart, StepPart};
+use crate::system::{Activity, CellChange};
+use signorini_geometry::mesh::{CellId, Mesh};
+use std::collections::{BTreeMap, HashMap};
+use thiserror::Error;
+
+/// Cells that take part again, or no longer, from the beginning of a step on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActivityPart {
+    /// The cells.
+    pub cells: Vec<CellId>,
+    /// What becomes of them.
+    pub change: CellChange,
+}
+
+/// Why cells cannot be removed or added.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ActivityError {
+    /// A cell that is in no body.
+    #[error("step \"{step}\" removes or adds element {element}, which belongs to no body")]
+    Outside {
+        /// Name of the step.
+        step: String,
+        /// The element, as numbered in the input.
+        element: u64,
+    },
+    /// A cell of a rigid body.
+    #[error(
+        "step \"{step}\" removes or adds element {element} of the rigid body \"{body}\", which has no stress"
+    )]
+    Rigid {
+        /// Name of the step.
+        step: String,
+        /// The element, as numbered in the input.
+        element: u64,
+        /// Name of the body.
+        body: String,
+    },
+    /// A cell that takes part already, or has been removed already.
+    #[error("step \"{step}\" {adds} element {element}, which is {active} already")]
+    Already {
+        /// Name of the step.
+        step: String,
+        /// The element, as numbered in the input.
+        element: u64,
+        /// `adds` or `removes`.
+        adds: &'static str,
+        /// `active` or `inactive`.
+        active: &'static str,
+    },
+    /// A cell that one step both removes and adds, or names twice.
+    #[error("step \"{step}\" removes or adds element {element} twice")]
+    Twice {
+        /// Name of the step.
+        step: String,
+        /// The element, as numbered in the input.
+        element: u64,
+    },
+    /// No deformable cell is left.
+    #[error("in step \"{step}\" no element is active: there is nothing to solve for")]
+    NothingLeft {
+        /// Name of the step.
+        step: String,
+    },
+    /// A load on several faces, some of which are removed, that is spread over all of them.
+    #[error(
+        "load \"{load}\" is one total over its faces, of which some belong to elements that steps remove or add"
+    )]
+    TotalOverParts {
+        /// Name of the load.
+        load: String,
+    },
+}
+
+/// Which cells take part in which step.
+pub(super) fn activity(
+    mesh: &Mesh,
+    bodies: &[BodyPart],
+    owner: &HashMap<CellId, usize>,
+    steps: &[StepPart],
+) -> Result<Activity, ModelError> {
+    let mut changes = Vec::new();
+    // of cells that have changed, whether they take part
+    let mut active: BTreeMap<CellId, bool> = BTreeMap::new();
+    let deformable = bodies.iter().filter(|b| b.kind.material().is_some());
+    let ncell: usize = deformable.map(|b| b.cells.len()).sum();
+    for (number, step) in steps.iter().enumerate() {
+        let mut here: BTreeMap<CellId, CellChange> = BTreeMap::new();
+        for part in &step.activity {
+            let adds = matches!(part.change, CellChange::Added { .. });
+            for &cell in &part.cells {
+                let (step, element) = (step.name.clone(), cell_label(mesh, cell));
+                let body = owner.get(&cell).and_then(|&body| bodies.get(body));
+                match body {
+                    None => return Err(ActivityError::Outside { step, element }.into()),
+                    Some(body) if matches!(body.kind, BodyKind::Rigid(_)) => {
+                        let body = body.name.clone();
+                        return Err(ActivityError::Rigid {
+                            step,
+                            element,
+                            body,
+                        }
+                        .into());
+                    }
+                    Some(_) => {}
+                }
+                match here.insert(cell, part.change) {
+                    Some(before) if before != part.change => {
+                        return Err(ActivityError::Twice { step, element }.into());
+                    }
+                    // named by two sets
+                    Some(_) => continue,
+                    None => {}
+                }
+                if active.insert(cell, adds).unwrap_or(true) == adds {
+                    let [adds, active] = match adds {
+                        true => ["adds", "active"],
+                        false => ["removes", "inactive"],
+                    };
+                    let already = ActivityError::Already {
+                        step,
+                        element,
+                        adds,
+                        active,
+                    };
+                    return Err(already.into());
+                }
+                changes.push((cell, number, part.change));
+            }
+        }
+        let removed = active.values().filter(|active| !**active).count();
+        if removed == ncell && !step.activity.is_empty() && ncell > 0 {
+            let step = step.name.clone();
+            return Err(ActivityError::NothingLeft { step }.into());
+        }
+    }
+    let activity = Activity::new(steps.len(), changes);
+    if activity.is_empty() {
+        return Ok(activity);
+    }
+    let cells: Vec<CellId> = bodies.iter().flat_map(|b| &b.cells).copied().collect();
+    Ok(activity.with_nodes(mesh, &cells))
+}

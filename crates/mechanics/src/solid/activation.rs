@@ -1,0 +1,442 @@
+//! Cells that take no part for a while, and where those that come back are free of strain.
+//!
+//! A cell that is removed has neither stiffness nor forces; what it exerted last falls to zero over the step, or is gone
+//! at once. One that is added takes part with the strain and the history that it has, or free of strain where its nodes
+//! are then, at displacements `u_0`, of virgin material:
+//!
+//! ```text
+//! ε(u) − ε(u_0) = ε(u − u_0)                    at small strain                                  (E18)
+//! S = ℂ : (E(u) − E(u_0))                       laws linear in the strain of Green and Lagrange     (E19)
+//! F F_0⁻¹ = I + ∂(u − u_0)/∂(X + u_0)           all other laws, per volume of the place X + u_0     (E20)
+//! ```
+//!
+//! (E19) is what CalculiX does, and an initial strain does ([`AtStart`](super::AtStart)). Its moduli are per length of the
+//! undeformed mesh: where elements are added that nodes in rest have stretched much, another law serves better.
+//! Temperatures count from those at that moment.
+
+use super::at::At;
+use super::cells::Cells;
+use super::kernel::Initial;
+use super::term::{Scratch, Solid, Wanted};
+use crate::system::{
+    Activity, Archive, ArchiveError, CellChange, Dof, Idealisation, Layout, NO_DOF, Sink, State,
+    StepContext, TermError,
+};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Sym3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// No step: a cell that never was added free of strain.
+const NEVER: f64 = -1.0;
+
+/// Elements that a message names.
+const NAMED: usize = 5;
+
+/// Which cells of a block take part, and where they are free of strain.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Part {
+    /// Of each cell; empty where all do.
+    active: Vec<bool>,
+    /// u_0 of the nodes of each cell; empty where it is zero everywhere.
+    origin: Vec<f64>,
+    /// The step at whose beginning each cell was added free of strain, or [`NEVER`]; empty where none was.
+    since: Vec<f64>,
+}
+
+impl Part {
+    /// Whether a cell takes part.
+    pub fn is_active(&self, cell: usize) -> bool {
+        self.active.get(cell).copied().unwrap_or(true)
+    }
+
+    /// Whether all cells are free of strain where they are undeformed.
+    pub const fn is_natural(&self) -> bool {
+        self.origin.is_empty()
+    }
+
+    /// u_0 at the n unknowns of a cell; nothing where it is zero.
+    pub fn origin(&self, cell: usize, n: usize) -> &[f64] {
+        let of_cell = self.origin.get(cell * n..(cell + 1) * n);
+        of_cell.unwrap_or_default()
+    }
+
+    /// The step at whose beginning a cell was added free of strain.
+    pub fn since(&self, cell: usize) -> Option<usize> {
+        let step = self.since.get(cell).copied().filter(|step| *step >= 0.0);
+        step.map(|step| step as usize)
+    }
+
+    /// Says which of `ncell` cells take part.
+    pub fn set_active(&mut self, ncell: usize, is_active: impl Fn(usize) -> bool) {
+        self.active.clear();
+        self.active.extend((0..ncell).map(is_active));
+    }
+
+    /// One of `ncell` cells is free of strain at these displacements from the beginning of a step on.
+    pub fn add(&mut self, cell: usize, ncell: usize, step: usize, u: &[f64]) {
+        let n = u.len();
+        self.origin.resize(ncell * n, 0.0);
+        self.since.resize(ncell, NEVER);
+        if let Some(to) = self.origin.get_mut(cell * n..(cell + 1) * n) {
+            to.copy_from_slice(u);
+        }
+        if let Some(since) = self.since.get_mut(cell) {
+            *since = step as f64;
+        }
+    }
+
+    /// Stores it under this name.
+    pub fn save(&self, name: &str, out: &mut Archive) {
+        out.put(format!("{name}.origin"), &self.origin);
+        out.put(format!("{name}.since"), &self.since);
+    }
+
+    /// Takes it back: of `ncell` cells with `n` unknowns in all.
+    pub fn load(
+        &mut self,
+        name: &str,
+        from: &Archive,
+        ncell: usize,
+        n: usize,
+    ) -> Result<(), ArchiveError> {
+        for (values, what, most) in [
+            (&mut self.origin, "origin", n),
+            (&mut self.since, "since", ncell),
+        ] {
+            let name = format!("{name}.{what}");
+            let found = from.length(&name)?;
+            values.clear();
+            values.resize(if found == 0 { 0 } else { most }, 0.0);
+            from.get(&name, values)?;
+        }
+        Ok(())
+    }
+}
+
+/// The plan of a body, and how far it has been followed.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub activity: Arc<Activity>,
+    /// The step whose changes have been made.
+    made: Option<usize>,
+    /// Forces of cells that are removed, at whole nodes, as they were when the step began.
+    fading: Vec<(Dof, f64)>,
+}
+
+impl Plan {
+    pub const fn new(activity: Arc<Activity>) -> Self {
+        Self {
+            activity,
+            made: None,
+            fading: Vec::new(),
+        }
+    }
+
+    /// The step whose cells take part.
+    pub fn step(&self) -> usize {
+        self.made.unwrap_or(0)
+    }
+
+    /// Identifies the cells that take part.
+    pub fn epoch(&self) -> u64 {
+        self.activity.epoch(self.step()) as u64
+    }
+
+    /// Whether a step begins whose changes have not been made. Notes that they are.
+    pub fn begins(&mut self, step: usize) -> bool {
+        let begins = self.made != Some(step);
+        if begins {
+            self.made = Some(step);
+            self.fading.clear();
+        }
+        begins
+    }
+
+    /// Chunks of forces that fall to zero.
+    pub fn nchunk(&self) -> usize {
+        usize::from(!self.fading.is_empty())
+    }
+
+    /// Forces fall to zero from now on: those of whole nodes.
+    pub fn fade(&mut self, layout: &Layout, forces: &BTreeMap<NodeId, [f64; 3]>) {
+        for (&node, force) in forces {
+            let of_node = (0..layout.ndim()).map(|axis| layout.node(node, axis));
+            self.fading
+                .extend(of_node.zip(*force).filter(|(dof, _)| *dof != NO_DOF));
+        }
+    }
+
+    /// How much of them is left.
+    fn left(step: &StepContext, time: f64) -> f64 {
+        (1.0 - (time - step.start) / step.duration).clamp(0.0, 1.0)
+    }
+
+    /// Adds what is left of the forces, node by node.
+    pub fn exert(&self, layout: &Layout, step: &StepContext, time: f64, out: &mut dyn Sink) {
+        let left = Self::left(step, time);
+        if left == 0.0 {
+            return;
+        }
+        for of_node in self.fading.chunks(layout.ndim().max(1)) {
+            let (mut dofs, mut forces) = ([NO_DOF; 3], [0.0; 3]);
+            for ((dof, force), from) in dofs.iter_mut().zip(&mut forces).zip(of_node) {
+                (*dof, *force) = (from.0, left * from.1);
+            }
+            let n = of_node.len().min(3);
+            out.add(&dofs[..n], &forces[..n], &[]);
+        }
+    }
+
+    /// Their potential: forces that are given.
+    pub fn energy(&self, step: &StepContext, trial: &State) -> f64 {
+        let value = |dof: Dof| trial.u.get(dof as usize).copied().unwrap_or_default();
+        let all = self.fading.iter().map(|(dof, force)| force * value(*dof));
+        Self::left(step, trial.time) * all.sum::<f64>()
+    }
+
+    /// Stores how far it has been followed.
+    pub fn save(&self, name: &str, out: &mut Archive) {
+        out.put(
+            format!("{name}.made"),
+            &[self.made.map_or(-1.0, |step| step as f64)],
+        );
+        let pairs = self
+            .fading
+            .iter()
+            .flat_map(|(dof, force)| [f64::from(*dof), *force]);
+        out.put(format!("{name}.fading"), &pairs.collect::<Vec<f64>>());
+    }
+
+    /// Takes it back.
+    pub fn load(&mut self, name: &str, from: &Archive) -> Result<(), ArchiveError> {
+        let mut made = [0.0];
+        from.get(&format!("{name}.made"), &mut made)?;
+        self.made = (made[0] >= 0.0).then_some(made[0] as usize);
+        let fading = format!("{name}.fading");
+        let mut pairs = vec![0.0; from.length(&fading)?];
+        from.get(&fading, &mut pairs)?;
+        let pairs = pairs.as_chunks::<2>().0.iter();
+        self.fading = pairs.map(|&[dof, force]| (dof as Dof, force)).collect();
+        Ok(())
+    }
+}
+
+/// The message on elements that are turned inside out where they are added.
+pub(super) fn inverted(body: &str, labels: &[u64]) -> TermError {
+    let named: Vec<String> = labels.iter().take(NAMED).map(u64::to_string).collect();
+    let more = match labels.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let (s, are) = if labels.len() == 1 {
+        ("", "is")
+    } else {
+        ("s", "are")
+    };
+    TermError::Refused {
+        message: format!(
+            "element{s} {}{more} of body \"{body}\" {are} turned inside out where this step adds them: nodes without an \
+             active element stay where they are while others move; move them along by [[step.move]], or add the elements \
+             earlier",
+            named.join(", ")
+        ),
+    }
+}
+
+impl Solid {
+    /// Cells take part as this says.
+    pub fn set_activity(&mut self, activity: Arc<Activity>) {
+        let mut own = self.blocks.iter().flat_map(|block| &block.ids);
+        if own.any(|&id| activity.names(id)) {
+            self.plan = Some(Plan::new(activity));
+            self.set_active();
+        }
+    }
+
+    /// Makes the changes of a step that begins, from the state and with the strains of the step before.
+    pub(super) fn change_cells(&mut self, step: usize, from: &State) -> Result<(), TermError> {
+        let Some(plan) = &mut self.plan else {
+            return Ok(());
+        };
+        if !plan.begins(step) {
+            return Ok(());
+        }
+        let activity = plan.activity.clone();
+        if !activity.changes_at(step) {
+            return Ok(());
+        }
+        let forces = self.forces_of_removed(step, &activity, from)?;
+        if let Some(plan) = &mut self.plan {
+            plan.fade(&self.layout, &forces);
+        }
+        let layout = self.layout;
+        for block in &mut self.blocks {
+            for cell in 0..block.ids.len() {
+                let change = activity.change(block.ids[cell], step);
+                if change == Some(CellChange::Added { strain_free: true }) {
+                    let at = |&node: &NodeId| {
+                        (0..layout.ndim()).map(move |axis| layout.node(node, axis))
+                    };
+                    let dofs = block.nodes_of(cell).iter().flat_map(at);
+                    let u: Vec<f64> = dofs.map(|dof| from.u[dof as usize]).collect();
+                    block.part.add(cell, block.ids.len(), step, &u);
+                    let n = block.nhistory;
+                    block.history[cell * n..(cell + 1) * n].copy_from_slice(&block.undeformed);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What cells that are removed exert on their nodes, where that falls to zero over the step. At the beginning of a run
+    /// they have exerted nothing yet.
+    fn forces_of_removed(
+        &self,
+        step: usize,
+        activity: &Activity,
+        from: &State,
+    ) -> Result<BTreeMap<NodeId, [f64; 3]>, TermError> {
+        let mut forces: BTreeMap<NodeId, [f64; 3]> = BTreeMap::new();
+        if step == 0 {
+            return Ok(forces);
+        }
+        let mut scratch = Scratch::default();
+        for block in &self.blocks {
+            scratch.size(block, self.layout.ndim(), Wanted::Forces);
+            for (cell, &id) in block.ids.iter().enumerate() {
+                if activity.change(id, step) != Some(CellChange::Removed { ramp: true }) {
+                    continue;
+                }
+                self.cell(block, cell, At::Trial(from), Wanted::Forces, &mut scratch)?;
+                let of_nodes = scratch.force.chunks_exact(self.layout.ndim());
+                for (&node, force) in block.nodes_of(cell).iter().zip(of_nodes) {
+                    let to = forces.entry(node).or_default();
+                    to.iter_mut().zip(force).for_each(|(to, f)| *to += f);
+                }
+            }
+        }
+        Ok(forces)
+    }
+
+    /// Says which cells take part in the present step.
+    pub(super) fn set_active(&mut self) {
+        let Some(plan) = &self.plan else { return };
+        let step = plan.step();
+        for block in &mut self.blocks {
+            let (ids, activity) = (&block.ids, &plan.activity);
+            let is_active =
+                |cell: usize| ids.get(cell).is_none_or(|&id| activity.is_active(id, step));
+            block.part.set_active(ids.len(), is_active);
+        }
+    }
+
+    /// Cells take part as the present step says, with its strains: what has no strain at u_0, and whether cells that are
+    /// added there are turned inside out.
+    pub(super) fn take_part(&mut self, from: &State) -> Result<(), TermError> {
+        self.set_active();
+        let Some(plan) = &self.plan else {
+            return Ok(());
+        };
+        let mut inside_out = Vec::new();
+        let mut initial = Vec::new();
+        let mut scratch = Scratch::default();
+        let step = plan.step();
+        for block in &self.blocks {
+            scratch.size(block, self.layout.ndim(), Wanted::Samples);
+            let mut of_block = block.given.clone();
+            for (cell, &id) in block.ids.iter().enumerate() {
+                let is_new = matches!(
+                    plan.activity.change(id, step),
+                    Some(CellChange::Added { .. })
+                );
+                let subtracts = self.subtracts && block.part.since(cell).is_some();
+                if !block.part.is_active(cell) || !(is_new || subtracts) {
+                    continue;
+                }
+                let at = if subtracts {
+                    At::Start
+                } else {
+                    At::Trial(from)
+                };
+                match self.cell(block, cell, at, Wanted::Samples, &mut scratch) {
+                    Err(TermError::Inverted { element, .. }) => {
+                        inside_out.push(element);
+                        continue;
+                    }
+                    other => other?,
+                };
+                if subtracts {
+                    self.take_off(block, cell, &scratch, &mut of_block);
+                }
+            }
+            initial.push(of_block);
+        }
+        if !inside_out.is_empty() {
+            return Err(inverted(&self.name, &inside_out));
+        }
+        for (block, initial) in self.blocks.iter_mut().zip(initial) {
+            block.initial = initial;
+        }
+        Ok(())
+    }
+
+    /// The strain of a cell at u_0, which leaves no stress (E19).
+    fn take_off(
+        &self,
+        block: &Cells,
+        cell: usize,
+        at_origin: &Scratch,
+        initial: &mut Vec<Initial>,
+    ) {
+        let npoint = block.points.rule.npoint();
+        initial.resize(block.ids.len() * npoint, Initial::default());
+        let of_cell = initial.iter_mut().skip(cell * npoint);
+        for (to, sample) in of_cell.zip(&at_origin.samples) {
+            let seen = match self.space {
+                // the law finds the strain across by itself
+                Idealisation::PlaneStress { .. } => Sym3::new(
+                    sample.seen.xx(),
+                    sample.seen.yy(),
+                    0.0,
+                    sample.seen.xy(),
+                    0.0,
+                    0.0,
+                ),
+                _ => sample.seen,
+            };
+            to.strain = to.strain + seen;
+        }
+    }
+
+    fn stored_plan(&self) -> String {
+        format!("solid.{}.activity", self.name)
+    }
+
+    pub(super) fn save_plan(&self, out: &mut Archive) {
+        if let Some(plan) = &self.plan {
+            let name = self.stored_plan();
+            plan.save(&name, out);
+            for (number, block) in self.blocks.iter().enumerate() {
+                block.part.save(&format!("{name}.{number}"), out);
+            }
+        }
+    }
+
+    pub(super) fn load_plan(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        let name = self.stored_plan();
+        let Some(plan) = &mut self.plan else {
+            return Ok(());
+        };
+        plan.load(&name, from)?;
+        let ndim = self.layout.ndim();
+        for (number, block) in self.blocks.iter_mut().enumerate() {
+            let (ncell, n) = (block.ids.len(), block.nodes.len() * ndim);
+            block
+                .part
+                .load(&format!("{name}.{number}"), from, ncell, n)?;
+        }
+        self.set_active();
+        Ok(())
+    }
+}
