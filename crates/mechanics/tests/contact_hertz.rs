@@ -136,6 +136,7 @@ fn pressed(facets: f64, element: &str, sliding: SlidingRange) -> ContactFrame {
         loads: vec![load],
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        activity: Vec::new(),
     };
     let parts = Parts {
         bodies: vec![solid("lower", &lower.cells), solid("upper", &upper.cells)],

@@ -282,6 +282,7 @@ impl Solution {
                 }],
                 contacts: Vec::new(),
                 temperatures: Vec::new(),
+                activity: Vec::new(),
             }],
             ..Parts::new(&self.mesh, self.space)
         };

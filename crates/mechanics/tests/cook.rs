@@ -132,6 +132,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             }],
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }],
         ..Parts::new(&grid.mesh, space)
     };

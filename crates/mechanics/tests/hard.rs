@@ -175,6 +175,7 @@ fn steps(s: &Situation, mesh: &Mesh, low: &Part, high: &Part) -> Vec<StepPart> {
         loads,
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        activity: Vec::new(),
     };
     let mut steps = vec![step("press", changes, loads, s.increments)];
     if s.slide != 0.0 {

@@ -182,6 +182,7 @@ fn model_of(s: &Situation) -> Model {
             }],
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)
     };

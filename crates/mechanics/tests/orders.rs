@@ -187,6 +187,7 @@ fn solution(
             }],
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }],
         ..Parts::new(mesh, field.space)
     };

@@ -185,6 +185,7 @@ impl Block {
                 loads,
                 contacts: Vec::new(),
                 temperatures: Vec::new(),
+                activity: Vec::new(),
             }],
             ..Parts::new(&grid.mesh, space)
         };

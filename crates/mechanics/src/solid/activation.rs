@@ -18,6 +18,7 @@ use super::at::At;
 use super::cells::Cells;
 use super::kernel::Initial;
 use super::term::{Scratch, Solid, Wanted};
+use crate::material::{Kinematics, Material, Order, Response, Strain};
 use crate::system::{
     Activity, Archive, ArchiveError, CellChange, Dof, Idealisation, Layout, NO_DOF, Sink, State,
     StepContext, TermError,
@@ -220,6 +221,36 @@ impl Plan {
         self.fading = pairs.map(|&[dof, force]| (dof as Dof, force)).collect();
         Ok(())
     }
+}
+
+/// Strains at which the tangent of a law is looked at.
+const STRAINS: [Sym3; 2] = [Sym3::ZERO, Sym3::new(0.06, -0.04, 0.02, 0.03, -0.02, 0.05)];
+
+/// What tangents may differ by through rounding, relative.
+const ROUNDING: f64 = 1e-10;
+
+/// Whether a law without history is linear in the strain of Green and Lagrange: it has one tangent.
+pub(super) fn is_linear(material: &dyn Material) -> bool {
+    let tangent = |value: Sym3| {
+        let mut response = Response::default();
+        let strain = Strain::new(Kinematics::Finite, value);
+        let answer = material.respond(&strain, &[], &mut [], Order::Tangent, &mut response);
+        answer.ok().map(|()| response.tangent)
+    };
+    if material.nhistory() > 0 {
+        return false;
+    }
+    let [Some(first), Some(second)] = STRAINS.map(tangent) else {
+        return false;
+    };
+    let pairs = first.as_flattened().iter().zip(second.as_flattened());
+    let most = first
+        .as_flattened()
+        .iter()
+        .fold(0.0_f64, |most, c| most.max(c.abs()));
+    pairs
+        .into_iter()
+        .all(|(a, b)| (a - b).abs() <= ROUNDING * most)
 }
 
 /// The message on elements that are turned inside out where they are added.

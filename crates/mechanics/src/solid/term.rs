@@ -1,4 +1,4 @@
-use super::activation::Plan;
+use super::activation::{Plan, is_linear};
 use super::at::At;
 use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
@@ -24,7 +24,7 @@ pub struct Solid {
     pub(super) material: Box<dyn Material>,
     // materials that take its place, each with the step from which on it does, in their order
     pub(super) later: Vec<(usize, Box<dyn Material>)>,
-    // whether each of these laws is linear in the strain, before directions are free of stress
+    // whether each of these laws is linear in the strain of Green and Lagrange, before directions are free of stress
     linear: Vec<bool>,
     pub(super) kinematics: Kinematics,
     pub(super) space: Idealisation,
@@ -137,7 +137,7 @@ impl Solid {
             at_nodes,
             initial,
         } = parts;
-        let linear = vec![material.linearity().is_linear()];
+        let linear = vec![is_linear(material.as_ref())];
         let material: Box<dyn Material> = match space {
             Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
             _ => material,
@@ -221,7 +221,7 @@ impl Solid {
     /// # Errors
     /// Its history at a point is another one's.
     pub fn change(&mut self, step: usize, material: Box<dyn Material>) -> Result<(), SolidError> {
-        let linear = material.linearity().is_linear();
+        let linear = is_linear(material.as_ref());
         let material: Box<dyn Material> = match self.space {
             Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
             _ => material,
@@ -249,7 +249,7 @@ impl Solid {
         later.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
     }
 
-    /// Whether the law of the present step is linear in the strain.
+    /// Whether the law of the present step is linear in the strain of Green and Lagrange.
     pub(super) fn is_linear(&self) -> bool {
         self.linear
             .get(self.nchanged())

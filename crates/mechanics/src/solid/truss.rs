@@ -10,7 +10,7 @@
 //!
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
-use super::activation::{Part, Plan, inverted};
+use super::activation::{Part, Plan, inverted, is_linear};
 use super::at::At;
 use super::{SolidError, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
@@ -136,7 +136,7 @@ impl Truss {
         if space == Idealisation::Axisymmetric {
             return Err(SolidError::BarOfRevolution { body });
         }
-        let linear = material.linearity().is_linear();
+        let linear = is_linear(material.as_ref());
         let material = Reduced::uniaxial(material);
         let mut truss = Self {
             name: body.clone(),

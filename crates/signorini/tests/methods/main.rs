@@ -234,6 +234,7 @@ fn press_and_slide(head: &[NodeId], flat: bool) -> Vec<StepPart> {
         loads: Vec::new(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        activity: Vec::new(),
     };
     let axes = if flat { vec![0] } else { vec![0, 2] };
     let mut held: Vec<(usize, Motion)> = axes.into_iter().map(|a| (a, Motion::Hold)).collect();

@@ -296,11 +296,16 @@ impl Interface {
         let discretization = self.parts.discretization.as_ref();
         let averaged = discretization.capabilities().averaged;
         let many = averaged.is_some();
+        let is_present = self.phase().is_none_or(|phase| phase.present);
         // without friction a row of one closest point sees one facet at a time
         let at_once = many || self.laws().slips();
         let (mut dofs, mut of_row, mut facets) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..self.now.pairs.len() {
-            let coupled = self.coupled.row(row);
+            let coupled = if is_present {
+                self.coupled.row(row)
+            } else {
+                &[]
+            };
             of_row.clear();
             self.multiplier_dofs(row, &mut of_row);
             let borrowers = self.lents.of(row).map_or(&[][..], |lent| &lent.borrowers);

@@ -25,6 +25,8 @@ pub struct ContactPhase {
     pub friction: Option<(Arc<dyn FrictionLaw>, Stick)>,
     /// Whether this interface stands for the contact, and not another one with other facets of it.
     pub stands: bool,
+    /// Whether the elements of its facets take part.
+    pub present: bool,
 }
 
 /// What is added to the gap of a row.

@@ -72,6 +72,7 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)
     };

@@ -381,6 +381,7 @@ impl Scene {
             phases: vec![ContactPhase {
                 active: true,
                 stands: true,
+                present: true,
                 friction: choice.friction,
             }],
             bond,

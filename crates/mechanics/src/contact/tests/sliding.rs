@@ -97,6 +97,7 @@ impl Slider {
             phases: vec![ContactPhase {
                 active: true,
                 stands: true,
+                present: true,
                 friction,
             }],
             ..InterfaceParts::new("led", pair, method, PENALTY)
@@ -375,6 +376,7 @@ fn a_step_without_friction_forgets() {
             phases: [true, false, true]
                 .map(|rubs| ContactPhase {
                     stands: true,
+                    present: true,
                     active: true,
                     friction: rubs.then(|| (coulomb(), stick)),
                 })

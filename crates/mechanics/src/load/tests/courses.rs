@@ -46,6 +46,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                 loads: loads.into_iter().map(load).collect(),
                 contacts: Vec::new(),
                 temperatures: Vec::new(),
+                activity: Vec::new(),
             }
         });
     let parts = Parts {

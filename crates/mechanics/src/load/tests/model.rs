@@ -43,6 +43,7 @@ fn step_with(changes: Vec<Change>, loads: Vec<Acting>, nonlinear: bool) -> StepP
         loads: loads.into_iter().enumerate().map(part).collect(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        activity: Vec::new(),
     }
 }
 

@@ -79,6 +79,7 @@ impl<'a> Steps<'a> {
             active: part.active,
             friction: friction(&part.friction),
             stands: true,
+            present: true,
         };
         let mut phases = Vec::new();
         for changes in &self.changes {
@@ -90,10 +91,11 @@ impl<'a> Steps<'a> {
                     now.friction = friction(changed);
                 }
             }
-            let [stands, acts] = variant.in_step(phases.len());
+            let [stands, present] = variant.in_step(phases.len());
             phases.push(ContactPhase {
-                active: now.active && acts,
+                active: now.active && present,
                 stands,
+                present,
                 ..now.clone()
             });
         }

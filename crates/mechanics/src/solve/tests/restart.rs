@@ -59,6 +59,7 @@ fn sliding_block() -> Model {
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }
     };
     let held = vec![(0, Motion::Hold), (1, Motion::Hold)];

@@ -285,6 +285,7 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            activity: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)
     };

@@ -98,6 +98,7 @@ fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
         loads: Vec::new(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        activity: Vec::new(),
     }
 }
 

@@ -151,6 +151,7 @@ fn step(changes: Vec<Change>) -> StepPart {
         loads: Vec::new(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        activity: Vec::new(),
     }
 }
 
