@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! tensor ◀── element ◀── mesh ◀── surface        proximity ──▶ tensor
-//! scalar ◀── overlap ──▶ element
+//! scalar ◀── overlap ──▶ element                surface ◀── location
 //! ```
 //!
 //! Rooms import only leftwards. Everything here can be used alone: a mesh, a surface made of some of its faces,
@@ -12,6 +12,7 @@
 extern crate self as signorini_geometry; // for the elements that tests of other crates share
 
 pub mod element;
+pub mod location;
 pub mod mesh;
 pub mod overlap;
 pub mod proximity;

@@ -1,6 +1,6 @@
 //! Reading what a run starts from: the case and its mesh, with a record of both.
 
-use crate::setup::{judge_mesh_of, read_mesh_of, read_surfaces_of};
+use crate::setup::{judge_mesh_of, read_mesh_of, read_motions_of, read_surfaces_of};
 use crate::vocabulary::vocabulary;
 use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;
@@ -326,6 +326,12 @@ fn mesh_of(
             sha256: hash.unwrap_or_else(|| hash_of(&path)),
         });
         source.mesh = Some(path);
+    }
+    for path in read_motions_of(case, &mesh, &source.folder)? {
+        source.inputs.push(Input {
+            path: path.display().to_string(),
+            sha256: hash_of(&path),
+        });
     }
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     warnings.silence(&allowed);

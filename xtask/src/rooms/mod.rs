@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 42] = [
+const ROOMS: [Room; 43] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -48,6 +48,16 @@ const ROOMS: [Room; 42] = [
     room(
         "geometry::overlap",
         &["geometry::tensor", "geometry::element", "geometry::scalar"],
+    ),
+    room(
+        "geometry::location",
+        &[
+            "geometry::tensor",
+            "geometry::element",
+            "geometry::mesh",
+            "geometry::proximity",
+            "geometry::surface",
+        ],
     ),
     room(
         "geometry::surface",

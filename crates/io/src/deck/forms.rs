@@ -62,6 +62,7 @@ fn form(card: &Statement) -> Option<Form> {
     let renews = card.peek("OP").map(compared).as_deref() == Some("NEW");
     let some = if renews { ANY } else { SOME };
     Some(match card.keyword.as_str() {
+        "SUBMODEL" => each(SOME, (1, usize::MAX), "nodes or node sets"),
         "BOUNDARY" => each(
             some,
             (2, 4),

@@ -57,7 +57,7 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("BEAM SECTION", "beams are not built yet"),
     read(
         "BOUNDARY",
-        "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED",
+        "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED, SUBMODEL",
     ),
     read("CHANGE FRICTION", "with FRICTION"),
     read("CHANGE SOLID SECTION", "ELSET of whole sections, MATERIAL"),
@@ -205,6 +205,10 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read("STATIC", "DIRECT"),
     read("STEP", "NLGEOM, INC, AMPLITUDE"),
+    read(
+        "SUBMODEL",
+        "TYPE=NODE; displacements of a .frd file, by BOUNDARY, SUBMODEL",
+    ),
     read("SURFACE", "TYPE=ELEMENT, NODE"),
     read(
         "SURFACE BEHAVIOR",

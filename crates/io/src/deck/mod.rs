@@ -9,6 +9,7 @@
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps
+//!                                  submodel    nodes that move as those of another model
 //!                                  step        supports, loads, temperatures, changes, printed tables
 //! ```
 //!
@@ -40,6 +41,7 @@ mod repeated;
 mod sections;
 mod spring;
 mod step;
+mod submodel;
 #[cfg(test)]
 mod tests;
 mod translation;
@@ -101,6 +103,7 @@ pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Rea
     translation.constraints();
     translation.springs();
     translation.contacts();
+    translation.submodels();
     translation.steps();
     translation.overlaps();
     translation.judge();

@@ -39,7 +39,7 @@ struct Line {
 #[derive(Default)]
 pub(super) struct Standing {
     /// Components that are prescribed, and whether they have ever been moved.
-    held: BTreeMap<(Target, usize), bool>,
+    pub(super) held: BTreeMap<(Target, usize), bool>,
     /// Local components of nodes that equations hold.
     local: BTreeSet<(u64, usize)>,
     /// What is prescribed along all local axes of a node.
@@ -121,6 +121,10 @@ impl Translation<'_> {
                 "BOUNDARY" => {
                     if renews {
                         self.release(standing, &mut step, &card.place);
+                    }
+                    if card.has("SUBMODEL") {
+                        self.from_global(card, sudden, standing, &mut step);
+                        continue;
                     }
                     self.boundary(card, &mut lines);
                 }
@@ -296,7 +300,11 @@ impl Translation<'_> {
             || card.has("USER")
         {
             let text = "*BOUNDARY of this type is not supported";
-            self.error(&codes::NOT_BUILT, text, &card.place, "displacements are");
+            let remark = match card.has("SUBMODEL") {
+                true => "displacements of a global model are prescribed within steps",
+                false => "displacements are",
+            };
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
             return;
         }
         let amplitude = self.amplitude(card);
@@ -527,6 +535,7 @@ impl Translation<'_> {
                 on,
                 u: Default::default(),
                 rot: Default::default(),
+                from: None,
                 place: line.place.clone(),
             };
             for component in components {
@@ -582,6 +591,7 @@ impl Translation<'_> {
                     on,
                     u: [course(0), course(1), course(2)],
                     rot: Default::default(),
+                    from: None,
                     place,
                 });
             } else {
@@ -681,6 +691,7 @@ fn along_x(reference: &str, course: Motion, place: &Place) -> Move {
         on: Spanned::new(reference.to_owned(), place.clone()),
         u: [Some(course), None, None],
         rot: Default::default(),
+        from: None,
         place: place.clone(),
     }
 }
@@ -697,7 +708,7 @@ fn motion(value: f64, amplitude: Option<&Name>, sudden: bool, duration: f64) -> 
 }
 
 /// Displacements and rotations among components from 0 to 5.
-fn directions(components: &[usize]) -> (Directions, Directions) {
+pub(super) fn directions(components: &[usize]) -> (Directions, Directions) {
     let of = |first: usize| Directions {
         xyz: std::array::from_fn(|axis| components.contains(&(first + axis))),
     };
@@ -705,7 +716,7 @@ fn directions(components: &[usize]) -> (Directions, Directions) {
 }
 
 /// Components from 0, of degrees of freedom from 1 to 6.
-fn components(first: u64, last: u64) -> Option<Vec<usize>> {
+pub(super) fn components(first: u64, last: u64) -> Option<Vec<usize>> {
     let meant = first >= 1 && last >= first && last <= 6;
     meant.then(|| (first as usize - 1..last as usize).collect())
 }

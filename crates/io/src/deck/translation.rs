@@ -4,7 +4,7 @@ use super::compat::Compat;
 use super::keywords::{Keyword, Support};
 use super::names::Names;
 use super::repeated::Repeated;
-use super::{constraint, contact, material};
+use super::{constraint, contact, material, submodel};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
@@ -39,6 +39,7 @@ pub(super) struct Translation<'d> {
     /// Places of amplitudes in the case, by what their names are compared by.
     pub amplitudes: BTreeMap<String, usize>,
     pub pairs: Vec<contact::Pair>,
+    pub submodels: Vec<submodel::Submodel>,
     nodes: Lookup,
     /// Places of elements among those of the mesh's dimension.
     elements: Lookup,
@@ -117,6 +118,7 @@ impl<'d> Translation<'d> {
             materials: BTreeMap::new(),
             amplitudes: BTreeMap::new(),
             pairs: Vec::new(),
+            submodels: Vec::new(),
             nodes: Lookup::new(&mesh.node_labels),
             elements: Lookup::new(&labels),
             cells,

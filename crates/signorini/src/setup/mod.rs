@@ -23,6 +23,7 @@ mod prints;
 mod refused;
 mod settings;
 mod steps;
+mod submodel;
 mod surfaces;
 mod temperature;
 #[cfg(test)]
@@ -36,6 +37,7 @@ pub(crate) use names::quoted;
 pub use prints::{
     ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };
+pub use submodel::read_motions_of;
 
 use crate::own::Own;
 use carriers::Carriers;

@@ -11,7 +11,7 @@ use super::quoted;
 use crate::own::Own;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_io::case::{
-    self, Amplitude, Case, Directions, Factor, Name, Remedy, Step, StrainAt, TimeBase,
+    self, Amplitude, Case, Directions, Factor, GlobalModel, Name, Remedy, Step, StrainAt, TimeBase,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::load::Course;
@@ -88,6 +88,10 @@ impl Builder<'_> {
         }
         for part in &step.moves {
             let turns = part.rot.iter().any(Option::is_some);
+            if let Some(from) = &part.from {
+                changes.extend(from_global(from, step.duration, &part.place, found));
+                continue;
+            }
             if let Some(target) = self.target(&part.on, turns, &part.place, found) {
                 let courses = part.u.iter().chain(&part.rot).enumerate();
                 let motions = courses.filter_map(|(c, m)| Some((c, self.motion(m.as_ref()?))));
@@ -278,6 +282,31 @@ impl Builder<'_> {
         let function = self.own.courses.get(&name.value);
         function.map(|one| TimeFunction::from(Arc::clone(one)))
     }
+}
+
+/// What another model prescribes: to each node its own displacement.
+fn from_global(
+    from: &GlobalModel,
+    duration: f64,
+    place: &Place,
+    found: &mut Diagnostics,
+) -> Vec<Change> {
+    let Some(values) = &from.values else {
+        let text = format!("{} has not been read", from.file.value.display());
+        let one = Diagnostic::error(&codes::UNREADABLE, text).at(place, "");
+        found.push(one.help("read the case from its file: signorini::load"));
+        return Vec::new();
+    };
+    let of_node = |&(node, u): &(NodeId, [f64; 3])| {
+        let axes = from.u.xyz.iter().zip(u).enumerate();
+        let given = axes.filter(|(_, (is_given, _))| **is_given);
+        let motions = given.map(|(axis, (_, value))| match from.ramp {
+            true => (axis, Motion::Ramp(value)),
+            false => (axis, Motion::Table(vec![[0.0, value], [duration, value]])),
+        });
+        Change::Prescribe(Target::Nodes(vec![node]), motions.collect())
+    };
+    values.iter().map(of_node).collect()
 }
 
 fn changes_nothing(step: &Step) -> Diagnostic {

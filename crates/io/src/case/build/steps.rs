@@ -206,11 +206,48 @@ impl Builder<'_> {
                     .map(|number| Motion::Ramp(number.value))
             }
         };
+        let (u, rot) = (
+            ["ux", "uy", "uz"].map(&mut component),
+            ["rx", "ry", "rz"].map(&mut component),
+        );
+        let from = fields
+            .has("from")
+            .then(|| self.global_model(fields.table("from")));
+        if from.is_some() && u.iter().chain(&rot).any(Option::is_some) {
+            self.error(
+                &codes::CONTRADICTION,
+                "`from` and components of a motion exclude each other",
+                &fields.place("from"),
+                "write a [[step.move]] for each",
+            );
+        }
         Move {
-            u: ["ux", "uy", "uz"].map(&mut component),
-            rot: ["rx", "ry", "rz"].map(&mut component),
+            u,
+            rot,
+            from,
             on: fields.text("on"),
             place,
+        }
+    }
+
+    /// The results of another model.
+    fn global_model(&mut self, fields: Fields<'_>) -> GlobalModel {
+        let file = fields.text("file");
+        let u = match fields.has("u") {
+            true => self.directions(fields, "u"),
+            false => Directions::ALL,
+        };
+        let number = |key: &str| fields.count_if(key).map(|count| count.value);
+        GlobalModel {
+            file: Spanned::new(file.value.into(), file.place),
+            at: match (number("step"), number("data_set")) {
+                (Some(step), _) => GlobalTime::Step(step),
+                (None, set) => GlobalTime::Set(set.unwrap_or(1)),
+            },
+            elements: fields.counts("elements"),
+            u,
+            ramp: fields.flag("ramp"),
+            values: None,
         }
     }
 

@@ -2,7 +2,9 @@
 
 use super::{Axis, ContactChange, Name};
 use crate::diagnostic::{Place, Spanned};
+use signorini_geometry::mesh::NodeId;
 use signorini_vocabulary::Chosen;
+use std::path::PathBuf;
 
 /// A function of time.
 #[derive(Clone, Debug, PartialEq)]
@@ -207,8 +209,36 @@ pub struct Move {
     pub u: [Option<Motion>; 3],
     /// Rotation about x, y, z (radian) where prescribed.
     pub rot: [Option<Motion>; 3],
+    /// The results of another model that the displacements are taken from; then nothing else is prescribed.
+    pub from: Option<GlobalModel>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// Displacements of another model: at each node those at its place there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GlobalModel {
+    /// Its results, relative to the case: a `.frd`, `.vtu` or `.pvd` file, or a folder of results.
+    pub file: Spanned<PathBuf>,
+    /// Of which time.
+    pub at: GlobalTime,
+    /// Numbers of the elements of it that count; empty: all.
+    pub elements: Vec<u64>,
+    /// Displacements prescribed.
+    pub u: Directions,
+    /// Whether they are reached linearly over the step.
+    pub ramp: bool,
+    /// The displacement of each node, once the results have been read.
+    pub values: Option<Vec<(NodeId, [f64; 3])>>,
+}
+
+/// A time of another model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GlobalTime {
+    /// The end of the step of this number.
+    Step(u64),
+    /// That of this displacement field, counted from 1 in the order of the results.
+    Set(u64),
 }
 
 /// The course of one prescribed component.

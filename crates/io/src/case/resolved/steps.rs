@@ -100,6 +100,28 @@ fn motions(one: &Move) -> Entries {
     for (key, motion) in keys.into_iter().zip(one.u.iter().chain(&one.rot)) {
         entries.extend(motion.as_ref().map(|motion| (key, course(motion))));
     }
+    entries.extend(
+        one.from
+            .as_ref()
+            .map(|from| ("from", Value::Table(global_model(from)))),
+    );
+    entries
+}
+
+fn global_model(from: &GlobalModel) -> Entries {
+    let at = match from.at {
+        GlobalTime::Step(step) => ("step", step.into()),
+        GlobalTime::Set(set) => ("data_set", set.into()),
+    };
+    let mut entries: Entries = vec![
+        ("file", from.file.value.to_string_lossy().as_ref().into()),
+        at,
+    ];
+    if !from.elements.is_empty() {
+        entries.push(("elements", list(from.elements.iter().copied())));
+    }
+    entries.push(("u", axes(from.u)));
+    entries.push(("ramp", from.ramp.into()));
     entries
 }
 

@@ -172,8 +172,53 @@ pub(super) static MOVE: Table = Table {
             MOTION,
             "rotation about z, in radian, of a reference or rigid body",
         ),
+        key("from", Shape::Table(&FROM), FROM.doc).hints(&["global", "submodel"]),
     ],
-    rules: &[Rule::AtLeastOne(&["ux", "uy", "uz", "rx", "ry", "rz"])],
+    rules: &[Rule::AtLeastOne(&[
+        "ux", "uy", "uz", "rx", "ry", "rz", "from",
+    ])],
+};
+
+pub(super) static FROM: Table = Table {
+    heading: "from",
+    doc: "the results of another model, whose displacements nodes have at their places",
+    keys: &[
+        key(
+            "file",
+            Shape::Text,
+            "its results: a .frd, .vtu or .pvd file, or a folder of results",
+        )
+        .required()
+        .hints(&["input", "path"]),
+        key(
+            "step",
+            COUNT,
+            "the number of its step; the end of it counts",
+        ),
+        key(
+            "data_set",
+            COUNT,
+            "the number of the displacement field, in place of a step",
+        ),
+        key(
+            "elements",
+            Shape::List(&COUNT, 1, MANY),
+            "the numbers of its elements that count; absent: all",
+        ),
+        key(
+            "u",
+            DIRECTIONS,
+            "displacements prescribed: \"all\" or a list of \"x\", \"y\", \"z\"",
+        )
+        .or(Default::Text("all")),
+        key(
+            "ramp",
+            Shape::Flag,
+            "whether they are reached linearly over the step; false: from its first increment on",
+        )
+        .or(Default::Flag(true)),
+    ],
+    rules: &[Rule::ExactlyOne(&["step", "data_set"])],
 };
 const MOTION: Shape = Shape::Either(&[ANY, Shape::Table(&MOTION_TABLE)]);
 

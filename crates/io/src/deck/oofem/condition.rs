@@ -234,6 +234,7 @@ impl Translation {
                 self.first.moves.push(Move {
                     on,
                     u: moved,
+                    from: None,
                     rot: Default::default(),
                     place: place.clone(),
                 });

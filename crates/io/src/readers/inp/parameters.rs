@@ -62,8 +62,9 @@ const CARDS: &[Card] = &[
         &["SMOOTH", "BEGIN", "FIXED INTERVAL", "VARIABLES", "PROPERTIES"]),
     card("ASSEMBLY", &[("NAME", Any), ("LIBRARY", Any)], &[]),
     card("BOUNDARY",
-        &[("AMPLITUDE", Any), ("TIME DELAY", Any), OP, ("FIXED", Flag), ("TYPE", Any), ("SUBMODEL", Any), ("USER", Any)],
-        &["LOAD CASE", "REGION TYPE", "MASS FLOW", "PRESSURE", "TEMPERATURE", "STEP", "DATA SET", "GLOBAL ELSET", "FILE",
+        &[("AMPLITUDE", Any), ("TIME DELAY", Any), OP, ("FIXED", Flag), ("TYPE", Any), ("SUBMODEL", Any), ("USER", Any),
+          ("STEP", Count), ("DATA SET", Count)],
+        &["LOAD CASE", "REGION TYPE", "MASS FLOW", "PRESSURE", "TEMPERATURE", "GLOBAL ELSET", "FILE",
           "PHANTOM", "SCALE"]),
     card("CHANGE FRICTION", &[("INTERACTION", Any)], &["RESET", "AMPLITUDE", "ELSET"]),
     card("CHANGE SOLID SECTION", &[("ELSET", Any), ("MATERIAL", Any), ("ORIENTATION", Any)], &[]),
@@ -182,6 +183,10 @@ const CARDS: &[Card] = &[
           ("PERTURBATION", Any), ("NAME", Any), ("UNSYMM", Any), ("EXTRAPOLATION", Any), ("CONVERT SDI", Any),
           ("SOLVER", Any), ("INCF", Any)],
         &["CYCLIC SYMMETRY"]),
+    card("SUBMODEL",
+        &[("TYPE", Words(&["NODE", "SURFACE"])), ("INPUT", Any), ("GLOBAL ELSET", Any)],
+        &["SHELL TO SOLID", "SHELL THICKNESS", "ACOUSTIC TO STRUCTURE", "ABSOLUTE EXTERIOR TOLERANCE", "EXTERIOR TOLERANCE",
+          "INTERSECTION ONLY"]),
     card("SURFACE",
         &[("NAME", Any), ("TYPE", Any), ("COMBINE", Any), ("CROP", Any), ("INSTANCE", Any), ("INTERNAL", Flag),
           ("INPUT", Any), ("DEFINITION", Any), ("REGION TYPE", Any), ("NO THICKNESS", Any), ("TRIM", Any),
@@ -275,6 +280,9 @@ fn strange(card: &Card, name: &str) -> Option<Fault> {
             remark: match name {
                 "INPUT" => {
                     "write the lines into the deck, or *INCLUDE, INPUT=… below the card".to_owned()
+                }
+                _ if name == "SUBMODEL" => {
+                    "only displacements of a global model are built".to_owned()
                 }
                 _ => "without it the deck means something else".to_owned(),
             },
