@@ -41,7 +41,7 @@ const NAMES: [(&str, &str); 4] = [
 ];
 
 /// Lists of tables whose singular is the method that adds to them: key, and attribute of the list.
-const LISTS: [(&str, &str); 19] = [
+const LISTS: [(&str, &str); 21] = [
     ("amplitude", "amplitudes"),
     ("axes", "axes"),
     ("body", "bodies"),
@@ -52,7 +52,9 @@ const LISTS: [(&str, &str); 19] = [
     ("reference", "references"),
     ("spring", "springs"),
     ("step", "steps"),
+    ("step.activate", "activations"),
     ("step.contact", "contacts"),
+    ("step.deactivate", "deactivations"),
     ("step.fix", "fixes"),
     ("step.free", "frees"),
     ("step.load", "loads"),

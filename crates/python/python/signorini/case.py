@@ -121,11 +121,13 @@ class Step(k.Step):
         rx: Scalar | None = None,
         ry: Scalar | None = None,
         rz: Scalar | None = None,
+        from_: k.MoveFrom | Mapping[str, Any] | None = None,
     ) -> k.Move:
         """Prescribes displacements `x`, `y`, `z` (length; also `ux`, …) or rotations `rx`, … (radian).
 
         A number is reached linearly over the step; rows `[[time, value], ...]` and functions of the time give the
-        course; `{"amplitude": "saw", "value": 8.0}` scales an amplitude.
+        course; `{"amplitude": "saw", "value": 8.0}` scales an amplitude. `from_={"file": "global.frd", "step": 1}` takes the
+        displacements from the results of another model.
 
         TOML: `[[step.move]]`.
         """
@@ -134,8 +136,9 @@ class Step(k.Step):
                 raise TypeError(f"{name} and u{name} are the same: give one of them")
         first = _some(ux=x, uy=y, uz=z)
         given = {**first, **_some(ux=ux, uy=uy, uz=uz, rx=rx, ry=ry, rz=rz)}
+        given |= _some(from_=from_)
         if not given:
-            raise TypeError("move needs at least one of x, y, z, rx, ry, rz")
+            raise TypeError("move needs at least one of x, y, z, rx, ry, rz, from_")
         return self.moves.add(k.Move(on=on, **given))
 
     def load(
@@ -234,6 +237,24 @@ class Step(k.Step):
         TOML: `[[step.material]]`.
         """
         return self.materials.add(k.MaterialChange(group=group, material=material))
+
+    def deactivate(self, group: str, *, ramp: bool | None = None) -> k.Deactivate:
+        """Removes elements, with their loads and contact faces, from this step on.
+
+        `ramp`: whether what they exert falls to zero over the step, as it does where it is not given, or is gone at once.
+
+        TOML: `[[step.deactivate]]`.
+        """
+        return self.deactivations.add(k.Deactivate(group=group, **_some(ramp=ramp)))
+
+    def activate(self, group: str, *, strain: Literal["free", "keep"] | None = None) -> k.Activate:
+        """Adds elements that were removed, from this step on.
+
+        `strain`: "free", as where it is not given, without stress where they are, as new; "keep" with what they had.
+
+        TOML: `[[step.activate]]`.
+        """
+        return self.activations.add(k.Activate(group=group, **_some(strain=strain)))
 
     @documented(k.Print, "on")
     def print(self, on: str | None = None, **keys: Unpack[k.PrintKeys]) -> k.Print:
@@ -864,7 +885,12 @@ def _in_order(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _move_paths(values: dict[str, Any], old: str, new: str) -> None:
-    """Paths of triangulated surfaces relative to another folder."""
+    """Paths of triangulated surfaces and of results of other models relative to another folder."""
+    for step in values.get("step", []):
+        for motion in step.get("move", []):
+            source = motion.get("from", {})
+            if isinstance(source.get("file"), str):
+                source["file"] = _relative(os.path.join(old, source["file"]), new).replace(os.sep, "/")
     for surface in values.get("surface", []):
         shape = surface.get("shape", {})
         if isinstance(shape.get("stl"), str):

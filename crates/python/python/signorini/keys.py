@@ -1122,6 +1122,21 @@ class Spring(Table):
     )
 
 
+class Activate(Table):
+    """Elements that take part again from this step on, with their loads and contact faces.
+
+    TOML: `step.activate`.
+    """
+
+    _toml = "step.activate"
+    group: Key[str | None, str] = Key("The group or set of elements", "text")
+    strain: Key[Literal["free", "keep"], Literal["free", "keep"]] = Key(
+        "Free: without stress where they are now, as new; keep: with the strain and the history that they have",
+        "`\"free\"`, `\"keep\"`",
+        default="free",
+    )
+
+
 class ContactChange(Table):
     """Changes of contacts, from this step on.
 
@@ -1136,6 +1151,21 @@ class ContactChange(Table):
         "number ≥ 0.0 or a table",
     )
     name: Key[str | None, str] = Key("The contact", "text")
+
+
+class Deactivate(Table):
+    """Elements that take no part from this step on, nor do their loads and contact faces.
+
+    TOML: `step.deactivate`.
+    """
+
+    _toml = "step.deactivate"
+    group: Key[str | None, str] = Key("The group or set of elements", "text")
+    ramp: Key[bool, bool] = Key(
+        "Whether what they exert falls to zero over the step; false: it is gone at once",
+        "`true` or `false`",
+        default=True,
+    )
 
 
 class Fix(Table):
@@ -1269,6 +1299,35 @@ class MaterialChange(Table):
     material: Key[str | None, str] = Key("Its new material", "text")
 
 
+class MoveFrom(Table):
+    """The results of another model, whose displacements nodes have at their places.
+
+    TOML: `step.move.from`.
+    """
+
+    _toml = "step.move.from"
+    data_set: Key[int | None, int] = Key(
+        "The number of the displacement field, in place of a step",
+        "whole number ≥ 1, ≤ 1000000000",
+    )
+    elements: Key[list[int] | None, Sequence[int] | NDArray[Any]] = Key(
+        "The numbers of its elements that count; absent: all",
+        "list of whole number ≥ 1, ≤ 1000000000",
+    )
+    file: Key[str | None, str] = Key("Its results: a .frd, .vtu or .pvd file, or a folder of results", "text")
+    ramp: Key[bool, bool] = Key(
+        "Whether they are reached linearly over the step; false: from its first increment on",
+        "`true` or `false`",
+        default=True,
+    )
+    step: Key[int | None, int] = Key("The number of its step; the end of it counts", "whole number ≥ 1, ≤ 1000000000")
+    u: Key[Literal["all"] | list[Literal["x", "y", "z"]], Literal["all"] | Sequence[Literal["x", "y", "z"]] | Sequence[Sequence[float]] | Course] = Key(
+        "Displacements prescribed: \"all\" or a list of \"x\", \"y\", \"z\"",
+        "`\"all\"` or list of `\"x\"`, `\"y\"`, `\"z\"`",
+        default="all",
+    )
+
+
 class Motion(Table):
     """The course of a prescribed component.
 
@@ -1291,6 +1350,12 @@ class Move(Table):
     """
 
     _toml = "step.move"
+    from_: One[MoveFrom] = One(
+        MoveFrom,
+        "The results of another model, whose displacements nodes have at their places",
+        "a table",
+        key="from",
+    )
     on: Key[str | None, str] = Key("The set, mesh group, reference or rigid body it acts on", "text")
     rx: Mixed[Motion] = Mixed(Motion, "Rotation about x, in radian, of a reference or rigid body", "number or a table")
     ry: Mixed[Motion] = Mixed(Motion, "Rotation about y, in radian, of a reference or rigid body", "number or a table")
@@ -1362,11 +1427,23 @@ class Step(Table):
     """
 
     _toml = "step"
+    activations: Items[Activate] = Items(
+        Activate,
+        "Elements that take part again from this step on, with their loads and contact faces",
+        "list of a table",
+        key="activate",
+    )
     contacts: Items[ContactChange] = Items(
         ContactChange,
         "Changes of contacts, from this step on",
         "list of a table",
         key="contact",
+    )
+    deactivations: Items[Deactivate] = Items(
+        Deactivate,
+        "Elements that take no part from this step on, nor do their loads and contact faces",
+        "list of a table",
+        key="deactivate",
     )
     duration: Key[float, float] = Key("How long it takes", "number > 0.0", default=1.0)
     fixes: Items[Fix] = Items(Fix, "Supports, at the present position", "list of a table", key="fix")

@@ -1,7 +1,9 @@
 //! What steps prescribe: supports, motions, loads and what holds at the start.
 
 use super::*;
-use crate::case::{AxesSystem, ConstraintKind, Factor, Motion, SetContent, Unstrained};
+use crate::case::{
+    AxesSystem, ConstraintKind, Factor, GlobalTime, Motion, SetContent, StrainAt, Unstrained,
+};
 use crate::deck::load::vector;
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Chosen, Value};
@@ -307,5 +309,152 @@ fn amplitudes_are_shifted_and_words_are_read_whatever_their_letters() {
     ] {
         let found = table(card).unwrap_err().plain();
         assert!(found.contains(message), "{found}");
+    }
+}
+
+/// A step that changes elements, after one that does not.
+fn changed(card: &str) -> String {
+    cube("C3D8", &format!("{STEP}*STEP\n*STATIC\n{card}*END STEP\n"))
+}
+
+#[test]
+fn elements_are_removed_and_added_as_the_card_says() {
+    let removed = changed("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nCUBE\n");
+    for (compat, ramp) in [(Compat::None, true), (Compat::Ccx, false)] {
+        let case = case_as(&removed, compat);
+        let one = &case.steps[1].deactivations[0];
+        assert_eq!((one.group.value.as_str(), one.ramp), ("CUBE", ramp));
+        assert!(case.steps[0].deactivations.is_empty() && case.steps[1].activations.is_empty());
+    }
+    for (word, strain) in [
+        ("ADD", StrainAt::Free),
+        ("ADD=STRAIN FREE", StrainAt::Free),
+        ("add = with strain", StrainAt::Keep),
+    ] {
+        let case = case(&changed(&format!(
+            "*MODEL CHANGE, TYPE=ELEMENT, {word}\n1\n"
+        )));
+        let one = &case.steps[1].activations[0];
+        assert_eq!(one.strain, strain, "{word}");
+        let set = case
+            .sets
+            .iter()
+            .find(|set| set.name.value == one.group.value);
+        assert_eq!(set.unwrap().content, SetContent::Elements(vec![1]));
+    }
+}
+
+#[test]
+fn changes_of_elements_that_are_not_built_or_not_clear_are_refused_by_name() {
+    for (card, expected) in [
+        (
+            "*MODEL CHANGE, TYPE=ELEMENT, MECHSTRAINTORESIDUAL\n",
+            "turns strain into residual strain; not built",
+        ),
+        (
+            "*MODEL CHANGE, TYPE=ELEMENT\nCUBE\n",
+            "neither adds nor removes",
+        ),
+        (
+            "*MODEL CHANGE, TYPE=ELEMENT, ADD, REMOVE\nCUBE\n",
+            "both adds and removes",
+        ),
+        ("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n", "has no data line"),
+        (
+            "*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nNONE\n",
+            "there is no element set `NONE`",
+        ),
+        (
+            "*MODEL CHANGE, TYPE=ELEMENT, ADD=STRAINED\nCUBE\n",
+            "is not known",
+        ),
+        (
+            "*MODEL CHANGE, TYPE=SHELL, REMOVE\nCUBE\n",
+            "TYPE=SHELL is not supported",
+        ),
+    ] {
+        let found = refused(&changed(card));
+        assert!(found.contains(expected), "{card}{found}");
+    }
+}
+
+/// A step with nodes that another model moves, after these cards.
+fn submodel(cards: &str, step: &str) -> String {
+    cube("C3D8", &format!("{cards}*STEP\n*STATIC\n{step}*END STEP\n"))
+}
+
+const CUT: &str = "*SUBMODEL, TYPE=NODE, INPUT=g.frd\nTOP, BASE\n";
+
+#[test]
+fn displacements_of_a_global_model_are_motions() {
+    for (at, wanted) in [
+        ("STEP=2", GlobalTime::Step(2)),
+        ("DATA SET=3", GlobalTime::Set(3)),
+    ] {
+        let card = format!("*BOUNDARY, SUBMODEL, {at}\nTOP, 1, 2\n1, 3\n");
+        let case = case(&submodel(CUT, &card));
+        let [top, node] = &case.steps[0].moves[..] else {
+            panic!("{:?}", case.steps[0].moves)
+        };
+        let from = top.from.as_ref().unwrap();
+        assert_eq!(
+            (from.at, from.u.xyz, from.ramp),
+            (wanted, [true, true, false], true)
+        );
+        assert_eq!(from.file.value.to_str(), Some("g.frd"));
+        assert_eq!(top.on.value, "TOP");
+        assert_eq!(node.from.as_ref().unwrap().u.xyz, [false, false, true]);
+        assert!(case.steps[0].fixes.is_empty());
+    }
+    let all = CUT.replace("g.frd", "g.frd, GLOBAL ELSET=CUBE");
+    let case = case(&submodel(&all, "*BOUNDARY, SUBMODEL, STEP=1\nTOP, 1, 3\n"));
+    assert_eq!(case.steps[0].moves[0].from.as_ref().unwrap().elements, [1]);
+}
+
+#[test]
+fn what_a_global_model_does_not_give_is_refused_by_name() {
+    let of_surface = CUT.replace("TYPE=NODE", "TYPE=SURFACE");
+    let top = "*BOUNDARY, SUBMODEL, STEP=1\nTOP, 1, 3\n";
+    for (cards, step, expected) in [
+        (
+            &of_surface[..],
+            top,
+            "only displacements of a global model are built",
+        ),
+        (
+            CUT,
+            "*DSLOAD, SUBMODEL, STEP=1\nLID, P, 1.\n",
+            "only displacements of a global model are built",
+        ),
+        (
+            CUT,
+            "*TEMPERATURE, SUBMODEL, STEP=1\nTOP, 1.\n",
+            "only displacements of a global model are built",
+        ),
+        (
+            CUT,
+            "*BOUNDARY, SUBMODEL\nTOP, 1, 3\n",
+            "neither STEP nor DATA SET",
+        ),
+        (
+            CUT,
+            "*BOUNDARY, SUBMODEL, STEP=1, DATA SET=1\nTOP, 1, 3\n",
+            "both STEP and DATA SET",
+        ),
+        (
+            CUT,
+            "*BOUNDARY, SUBMODEL, STEP=1\nTOP, 4, 6\n",
+            "there are no displacements 4 to 6",
+        ),
+        ("", top, "is named by no *SUBMODEL card"),
+        ("*SUBMODEL, TYPE=NODE\nTOP\n", top, "*SUBMODEL has no INPUT"),
+        (
+            "*SUBMODEL, TYPE=NODE, INPUT=g.frd\n",
+            top,
+            "has no data line",
+        ),
+    ] {
+        let found = refused(&submodel(cards, step));
+        assert!(found.contains(expected), "{cards}{step}{found}");
     }
 }
