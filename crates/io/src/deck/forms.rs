@@ -126,6 +126,7 @@ fn property(card: &Statement) -> Option<Form> {
     let terms: Option<usize> = terms.filter(|terms| (1..=6).contains(terms));
     Some(match card.keyword.as_str() {
         "DENSITY" => each(SOME, (1, 2), "density, temperature"),
+        "DEFORMATIONPLASTICITY" => each(SOME, (5, 6), "E, nu, s0, n, alpha, temperature"),
         "ELASTIC" if kind.is_empty() || "ISOTROPIC".starts_with(&kind) => {
             each(SOME, (2, 3), "E, nu, temperature")
         }

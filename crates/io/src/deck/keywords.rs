@@ -84,12 +84,12 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("CYCLIC HARDENING", "combined hardening is not built"),
     read("CYCLIC SYMMETRY MODEL", "N, TIE, of matching sides"),
     ignored("DAMPING", "only of motion: steps are static"),
-    refused(
-        "DEFORMATION PLASTICITY",
-        "only incremental plasticity is built",
-    ),
+    read("DEFORMATION PLASTICITY", "at one temperature"),
     read("DENSITY", "constant"),
-    refused("DEPVAR", "materials of users are not built"),
+    ignored(
+        "DEPVAR",
+        "the laws of *USER MATERIAL that are built keep no state",
+    ),
     ignored("DIAGNOSTICS", "every increment is told of"),
     read("DISTRIBUTING", "with COUPLING"),
     read("DISTRIBUTING COUPLING", "of an element of type DCOUP3D"),
@@ -219,7 +219,10 @@ pub const KEYWORDS: &[Keyword] = &[
     read("TIE", "POSITION TOLERANCE, ADJUST; CYCLIC SYMMETRY"),
     ignored("TIME POINTS", "results are written after every increment"),
     read("TRANSFORM", "TYPE=R, C"),
-    refused("USER MATERIAL", "materials of users are not built"),
+    read(
+        "USER MATERIAL",
+        "LIN_ISO_EL, UNDO_NLGEOM_LIN_ISO_EL, CIARLET_EL, COMPRESSION_ONLY, TENSION_ONLY",
+    ),
     refused("VISCO", "only static steps are built"),
 ];
 

@@ -1,13 +1,14 @@
 //! Materials: their constants, density, expansion, yield stresses.
 
 use super::forms::needs_data;
+use super::keywords::Keyword;
 use super::translation::Translation;
 use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity, Unstrained};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Statement, compared};
 
 /// Constants of a law, by their names in a case.
-type Constants = Vec<(&'static str, Vec<f64>)>;
+pub(super) type Constants = Vec<(&'static str, Vec<f64>)>;
 
 /// What is known of a material.
 #[derive(Clone, Debug, Default)]
@@ -56,7 +57,14 @@ impl Translation<'_> {
                         ..Properties::default()
                     });
                 }
-                "ELASTIC" | "DENSITY" | "EXPANSION" | "PLASTIC" | "HYPERELASTIC" | "HYPERFOAM" => {
+                "ELASTIC"
+                | "DENSITY"
+                | "EXPANSION"
+                | "PLASTIC"
+                | "HYPERELASTIC"
+                | "HYPERFOAM"
+                | "USERMATERIAL"
+                | "DEFORMATIONPLASTICITY" => {
                     let Some(mut material) = open.take() else {
                         let text = format!("*{} stands in no *MATERIAL", card.title);
                         self.error(&codes::CONTRADICTION, text, &card.place, "");
@@ -71,6 +79,7 @@ impl Translation<'_> {
         }
         order.extend(open);
         self.named_twice("MATERIAL");
+        self.strains_of_deformation_plasticity();
         for material in order {
             if let (Some((law, _)), Some(_)) = (&material.law, &material.plasticity)
                 && *law != "linear-elastic"
@@ -99,7 +108,7 @@ impl Translation<'_> {
             return;
         };
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
-        if ["ELASTIC", "HYPERELASTIC", "HYPERFOAM"].contains(&card.keyword.as_str()) {
+        if !["DENSITY", "EXPANSION", "PLASTIC"].contains(&card.keyword.as_str()) {
             material.of_law = first.first().map_or(card.place.clone(), Field::place);
         }
         match card.keyword.as_str() {
@@ -153,6 +162,14 @@ impl Translation<'_> {
                 });
             }
             "HYPERFOAM" => material.law = self.foam(card, &rows).or(material.law.take()),
+            "USERMATERIAL" => {
+                let law = self.user_law(card, &material.name, &rows);
+                material.law = law.or(material.law.take());
+            }
+            "DEFORMATIONPLASTICITY" => {
+                let law = self.deformation_plasticity(card, &rows);
+                material.law = law.or(material.law.take());
+            }
             _ => material.law = self.hyperelastic(card, &rows).or(material.law.take()),
         }
     }
@@ -177,7 +194,7 @@ impl Translation<'_> {
     }
 
     /// What *ELASTIC says.
-    fn elastic(
+    pub(super) fn elastic(
         &mut self,
         card: &Statement,
         kind: &str,
@@ -326,6 +343,11 @@ impl Translation<'_> {
         constants.push(("bulk", vec![bulk]));
         Some((law, constants))
     }
+}
+
+/// A keyword as it is written, with its blanks.
+fn spoken(keyword: &str) -> &str {
+    Keyword::of(keyword).map_or(keyword, |known| known.name)
 }
 
 fn case_of(of: Properties) -> Option<Material> {

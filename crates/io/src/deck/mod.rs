@@ -45,6 +45,7 @@ mod submodel;
 #[cfg(test)]
 mod tests;
 mod translation;
+mod user;
 mod words;
 
 pub use compat::Compat;

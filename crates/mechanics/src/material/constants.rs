@@ -70,6 +70,10 @@ impl Constants {
             ("G13", &[140.0]),
             ("G23", &[90.0]),
             ("T", &[0.0]),
+            ("residual", &[50.0]),
+            ("reference_stress", &[20.0]),
+            ("exponent", &[3.0]),
+            ("offset", &[0.4]),
             (
                 "D",
                 &[

@@ -1,6 +1,6 @@
 //! The keys of the constants of laws, each once.
 
-use signorini_vocabulary::{ANY, Key, MANY, POISSON, POSITIVE, Shape, key};
+use signorini_vocabulary::{ANY, Key, MANY, NOT_NEGATIVE, POISSON, POSITIVE, Shape, key};
 
 const LIST: Shape = Shape::Either(&[ANY, Shape::List(&ANY, 1, MANY)]);
 
@@ -42,6 +42,33 @@ pub(super) const EXPONENTS: Key = key(
 pub(super) const BULK: Key = key("bulk", POSITIVE, "bulk modulus (stress)")
     .hints(&["K", "bulk_modulus"])
     .required();
+pub(super) const RESIDUAL: Key = key(
+    "residual",
+    POSITIVE,
+    "stress that is left of the tension of no-tension, of the compression of no-compression (stress)",
+)
+.required();
+pub(super) const REFERENCE_STRESS: Key = key(
+    "reference_stress",
+    POSITIVE,
+    "stress at which the plastic strain of ramberg-osgood is `offset` times the elastic one (stress)",
+)
+.hints(&["s0", "sigma0"])
+.required();
+pub(super) const EXPONENT: Key = key(
+    "exponent",
+    ANY,
+    "hardening exponent of ramberg-osgood, at least 1",
+)
+.hints(&["n"])
+.required();
+pub(super) const OFFSET: Key = key(
+    "offset",
+    NOT_NEGATIVE,
+    "plastic over elastic strain of ramberg-osgood at its reference stress",
+)
+.hints(&["yield_offset"])
+.required();
 pub(super) const E1: Key = key(
     "E1",
     POSITIVE,

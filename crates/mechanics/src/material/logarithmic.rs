@@ -185,7 +185,8 @@ const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 /// A symmetric tensor by its principal values and axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Principal {
-    values: [f64; 3],
+    /// The principal values.
+    pub values: [f64; 3],
     frame: Frame,
 }
 
@@ -201,6 +202,11 @@ impl Principal {
     pub fn map(&self, function: impl Fn(f64) -> f64) -> Sym3 {
         let [a, b, c] = self.values.map(function);
         self.frame.leave(Sym3::diagonal(a, b, c))
+    }
+
+    /// Turns a response in the principal axes to the global ones.
+    pub fn turn_back(&self, order: Order, out: &mut Response) {
+        self.frame.turn_back(order, out);
     }
 }
 

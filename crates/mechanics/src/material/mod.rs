@@ -21,6 +21,7 @@
 
 mod anisotropic;
 mod by_temperature;
+mod ciarlet;
 mod constants;
 mod definition;
 mod expanding;
@@ -34,14 +35,19 @@ mod ogden;
 mod oriented;
 mod orthotropic;
 mod plasticity;
+mod principal;
+mod ramberg_osgood;
 mod reduced;
+mod rotated_linear;
 mod saint_venant_kirchhoff;
 mod stretches;
 #[cfg(test)]
 mod tests;
+mod unilateral;
 
 pub use anisotropic::Anisotropic;
 pub use by_temperature::ByTemperature;
+pub use ciarlet::Ciarlet;
 pub use constants::{Constants, ConstantsError};
 pub(crate) use definition::undeformed_tangent;
 pub use definition::{
@@ -55,8 +61,11 @@ pub use ogden::Ogden;
 pub use oriented::Oriented;
 pub use orthotropic::Orthotropic;
 pub use plasticity::Plasticity;
+pub use ramberg_osgood::RambergOsgood;
 pub use reduced::Reduced;
+pub use rotated_linear::RotatedLinear;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+pub use unilateral::Unilateral;
 
 use signorini_vocabulary::{Description, Key};
 
@@ -74,7 +83,7 @@ pub struct Law {
 
 /// Every law, by its name in a case. At finite strain `linear-elastic`, at one temperature or several, is the law of
 /// Saint Venant and Kirchhoff: rotations are exact, strains should stay small.
-pub static TABLE: [Law; 10] = [
+pub static TABLE: [Law; 16] = [
     Law {
         name: "linear-elastic",
         doc: "isotropic and linear; of Saint Venant and Kirchhoff at finite strain",
@@ -153,6 +162,60 @@ pub static TABLE: [Law; 10] = [
         doc: "isotropic and linear, with constants that depend on the temperature",
         constants: &[keys::TEMPERATURES, keys::YOUNG, keys::POISSONS_RATIO],
         make: |c| Ok(Box::new(ByTemperature::new(c)?)),
+    },
+    Law {
+        name: "rotated-linear",
+        doc: "isotropic and linear between the stretch and the second stress of Piola and Kirchhoff",
+        constants: &[keys::YOUNG, keys::POISSONS_RATIO],
+        make: |c| {
+            let (e, nu) = c.isotropic()?;
+            Ok(Box::new(RotatedLinear::new(e, nu)))
+        },
+    },
+    Law {
+        name: "ciarlet",
+        doc: "isotropic, for metals under large compression",
+        constants: &[keys::YOUNG, keys::POISSONS_RATIO],
+        make: |c| {
+            let (e, nu) = c.isotropic()?;
+            Ok(Box::new(Ciarlet::new(e, nu)))
+        },
+    },
+    Law {
+        name: "no-tension",
+        doc: "compression alone along each principal axis, without contraction across",
+        constants: &[keys::YOUNG, keys::RESIDUAL],
+        make: |c| Ok(Box::new(Unilateral::no_tension(c)?)),
+    },
+    Law {
+        name: "no-compression",
+        doc: "tension alone along each principal axis, without contraction across",
+        constants: &[keys::YOUNG, keys::RESIDUAL],
+        make: |c| Ok(Box::new(Unilateral::no_compression(c)?)),
+    },
+    Law {
+        name: "ramberg-osgood",
+        doc: "plasticity by deformation theory, with a power of the stress; Kirchhoff's stress and logarithmic strain",
+        constants: &[
+            keys::YOUNG,
+            keys::POISSONS_RATIO,
+            keys::REFERENCE_STRESS,
+            keys::EXPONENT,
+            keys::OFFSET,
+        ],
+        make: |c| Ok(Box::new(RambergOsgood::logarithmic(c)?)),
+    },
+    Law {
+        name: "ramberg-osgood-eulerian",
+        doc: "the same with Cauchy's stress and the strain of Almansi, as in CalculiX",
+        constants: &[
+            keys::YOUNG,
+            keys::POISSONS_RATIO,
+            keys::REFERENCE_STRESS,
+            keys::EXPONENT,
+            keys::OFFSET,
+        ],
+        make: |c| Ok(Box::new(RambergOsgood::eulerian(c)?)),
     },
 ];
 

@@ -91,7 +91,7 @@ const TERMS: i32 = 12;
 ///
 /// At small strain from `d = det C − 1` by invariants of `E`, without cancellation: `ln J = ½ ln(1 + d)`, and
 /// `tr C − 3 − ln det C = (tr C − 3 − d) + (d − ln(1 + d))`.
-fn volume_terms(e: &Sym3, det: f64) -> (f64, f64) {
+pub(super) fn volume_terms(e: &Sym3, det: f64) -> (f64, f64) {
     let trace = e.trace();
     if e.to_pairs().iter().any(|e| e.abs() > SMALL) {
         let log = det.ln();

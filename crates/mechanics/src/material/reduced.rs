@@ -14,13 +14,14 @@ use signorini_geometry::tensor::Sym3;
 /// The strains of the free directions that come in are ignored, stress and tangent there are zero, `across` is what was
 /// found. The potential is minimized by Newton's method, at finite strain in logarithms of the free stretches, in which
 /// it is convex more often and constant volume is a straight line: a tangent that is not positive definite is shifted, a
-/// step is halved until the energy or its slope falls and `I + 2E` is positive definite.
+/// step is halved until the energy or its slope falls and `I + 2E` is positive definite. Of a law whose tangent is not
+/// symmetric, which has no potential, `S_f = 0` is solved by the same steps, without a shift; a step is halved until `|S_f|` falls.
 ///
 /// History: that of the law inside, then the free strains (tensor components, in the order of [`Sym3::PAIRS`]), from
 /// which the next search starts. Wraps every other wrapper: a law inside sees all six strains.
 ///
 /// # Limits
-/// The law inside must have a potential, and one with a minimum: the law of Saint Venant and Kirchhoff has none where
+/// The potential must have a minimum: that of the law of Saint Venant and Kirchhoff has none where
 /// its linear contraction exceeds the thickness; that is [`MaterialError::NotConverged`].
 pub struct Reduced {
     inner: Box<dyn Material>,
@@ -140,6 +141,14 @@ impl Reduced {
     /// Newton's step towards stress-free directions, shears doubled, in the coordinates of [`Self::moved`].
     fn step(&self, strain: &Strain, at: &Response) -> Result<Vector, MaterialError> {
         let stress = at.stress.to_pairs();
+        if !self.inner.is_symmetric() {
+            let mut columns = [[0.0; MOST]];
+            for (to, &p) in columns[0].iter_mut().zip(self.free) {
+                *to = -stress[p];
+            }
+            self.eliminate(&at.tangent, &mut columns)?;
+            return Ok(columns[0]);
+        }
         let finite = strain.kinematics == Kinematics::Finite;
         let c = (strain.value * 2.0 + Sym3::IDENTITY).to_pairs();
         let (mut step, mut curvature, mut weight) = ([0.0; MOST], [0.0; MOST], [1.0; MOST]);
@@ -167,6 +176,56 @@ impl Reduced {
             };
         }
         Err(NOT_CONVERGED)
+    }
+
+    /// Solves with `C_ff`, of which nothing is asked but an inverse: columns become solutions.
+    fn eliminate(
+        &self,
+        tangent: &[[f64; 6]; 6],
+        columns: &mut [Vector],
+    ) -> Result<(), MaterialError> {
+        let n = self.free.len();
+        let mut a = [[0.0; MOST]; MOST];
+        for (row, &p) in a.iter_mut().zip(self.free) {
+            for (to, &q) in row.iter_mut().zip(self.free) {
+                *to = tangent[p][q];
+            }
+        }
+        let size = a.iter().map(|row| largest(row)).fold(0.0, f64::max);
+        for k in 0..n {
+            let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()));
+            let pivot = pivot.unwrap_or(k);
+            a.swap(k, pivot);
+            columns.iter_mut().for_each(|column| column.swap(k, pivot));
+            let above = a[k];
+            if above[k].abs().total_cmp(&(f64::EPSILON * size)).is_le() {
+                return Err(NOT_CONVERGED);
+            }
+            for i in (k + 1)..n {
+                let factor = a[i][k] / above[k];
+                for (to, above) in a[i].iter_mut().zip(above) {
+                    *to -= factor * above;
+                }
+                for column in columns.iter_mut() {
+                    column[i] -= factor * column[k];
+                }
+            }
+        }
+        for column in columns {
+            for i in (0..n).rev() {
+                let known: f64 = (i + 1..n).map(|j| a[i][j] * column[j]).sum();
+                column[i] = (column[i] - known) / a[i][i];
+            }
+        }
+        Ok(())
+    }
+
+    /// The largest free stress.
+    fn unbalanced(&self, at: &Response) -> f64 {
+        let stress = at.stress.to_pairs();
+        self.free
+            .iter()
+            .fold(0.0, |most, &p| most.max(stress[p].abs()))
     }
 
     /// The work of the free stresses on a step.
@@ -249,7 +308,13 @@ impl Reduced {
                 && (self.inner)
                     .respond(&there, old, new, Order::Tangent, &mut trial)
                     .is_ok();
-            if answers {
+            if answers && !self.inner.is_symmetric() {
+                let left = (1.0 - DECREASE * share) * self.unbalanced(out);
+                if self.unbalanced(&trial) <= left + 4.0 * f64::EPSILON * largest_stress(out) {
+                    *out = trial;
+                    return Ok(there);
+                }
+            } else if answers {
                 let falls = trial.energy <= out.energy + DECREASE * share * slope + noise;
                 if falls || self.slope(&trial, step).abs() <= FLATTENING * slope.abs() {
                     *out = trial;
@@ -264,19 +329,24 @@ impl Reduced {
     /// Takes the stress-free directions out of a response.
     fn condense(&self, out: &mut Response) -> Result<(), MaterialError> {
         let n = self.free.len();
-        let factor = self
-            .factor(&out.tangent, &[0.0; MOST])
-            .ok_or(NOT_CONVERGED)?;
         let full = out.tangent;
-        for q in 0..6 {
-            let mut column = [0.0; MOST];
+        // C_ff⁻¹ C_f·
+        let mut columns = [[0.0; MOST]; 6];
+        for (q, column) in columns.iter_mut().enumerate() {
             for (c, &p) in column.iter_mut().zip(self.free) {
                 *c = full[p][q];
             }
-            solve(&factor, n, &mut column);
-            for (row, from) in out.tangent.iter_mut().zip(&full) {
+        }
+        if self.inner.is_symmetric() {
+            let factor = self.factor(&full, &[0.0; MOST]).ok_or(NOT_CONVERGED)?;
+            columns.iter_mut().for_each(|c| solve(&factor, n, c));
+        } else {
+            self.eliminate(&full, &mut columns)?;
+        }
+        for (row, from) in out.tangent.iter_mut().zip(&full) {
+            for (to, column) in row.iter_mut().zip(&columns) {
                 for (c, &p) in column.iter().zip(self.free) {
-                    row[q] -= from[p] * c;
+                    *to -= from[p] * c;
                 }
             }
         }
@@ -347,6 +417,10 @@ impl Material for Reduced {
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+fn largest_stress(at: &Response) -> f64 {
+    largest(&at.stress.to_pairs())
 }
 
 /// Whether a body can have this strain: at finite strain, `C = I + 2E` is positive definite.

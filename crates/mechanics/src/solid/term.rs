@@ -714,6 +714,10 @@ impl Term for Solid {
         if let Some(plan) = self.plan.as_ref().filter(|_| chunk >= self.chunks.len()) {
             return Ok(Some(plan.energy(&self.step, trial)));
         }
+        // without a potential there is none
+        if !self.material().is_symmetric() {
+            return Ok(None);
+        }
         let (at, mut total) = (At::Trial(trial), 0.0);
         let scratch = work.of::<Scratch>();
         self.each(chunk, at, Wanted::Forces, scratch, |_, _, energy, _| {

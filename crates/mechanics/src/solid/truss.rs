@@ -651,6 +651,10 @@ impl Term for Truss {
         {
             return Ok(Some(plan.energy(&self.step, trial)));
         }
+        // without a potential there is none
+        if !self.material.is_symmetric() {
+            return Ok(None);
+        }
         let scratch = work.of::<Scratch>();
         let (at, mut total) = (At::Trial(trial), 0.0);
         for number in self.chunk(chunk) {

@@ -6,7 +6,7 @@ use crate::problem::{Check, Problem, Setup};
 use std::f64::consts::FRAC_PI_2;
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 11] = [
+pub(super) const PROBLEMS: [Problem; 14] = [
     Problem {
         name: "uniaxial-neo-hookean",
         title: "A neo-Hookean cube is stretched and compressed",
@@ -107,6 +107,56 @@ pub(super) const PROBLEMS: [Problem; 11] = [
         formula: "$P = \\tfrac12 E(l^3 - l)$, lateral stretch $\\sqrt{1 - \\nu(l^2 - 1)}$",
         quick: true,
         pose: saint_venant,
+    },
+    Problem {
+        name: "uniaxial-rotated-linear",
+        title: "A cube that is linear in its stretch is stretched and compressed",
+        source: "closed form: the second stress of Piola and Kirchhoff is Hooke's of U − I",
+        goal: "a law without a potential",
+        mesh: "one hex8",
+        conditions: "three planes of symmetry; the stretch goes to 1.5, then to 0.8",
+        formula: "$P = E\\,l(l - 1)$, lateral stretch $1 - \\nu(l - 1)$",
+        quick: true,
+        pose: || {
+            let law = |l: [f64; 3]| {
+                let trace = l[0] + l[1] + l[2] - 3.0;
+                l.map(|l| l * l * (1.5 * trace + 2.0 * (l - 1.0)))
+            };
+            let text = "model = \"rotated-linear\"\nE = 2.6\nnu = 0.3";
+            stretched(text, [1.5, 0.8], &law)
+        },
+    },
+    Problem {
+        name: "uniaxial-ciarlet",
+        title: "A cube of Ciarlet's law is stretched and compressed",
+        source: "P. G. Ciarlet, Mathematical Elasticity I (1988), section 4.10",
+        goal: "stress and contraction at large strain",
+        mesh: "one hex8",
+        conditions: "three planes of symmetry; the stretch goes to 2, then to 0.5",
+        formula: "$\\tau_i = \\tfrac\\lambda2 (J^2 - 1) + \\mu(\\lambda_i^2 - 1)$; the lateral stretch solves $\\tau_2 = 0$",
+        quick: true,
+        pose: || {
+            let law = |l: [f64; 3]| {
+                let j: f64 = l.iter().product();
+                l.map(|l| 0.75 * (j * j - 1.0) + l * l - 1.0)
+            };
+            let text = "model = \"ciarlet\"\nE = 2.6\nnu = 0.3";
+            stretched(text, [LONG, SHORT], &law)
+        },
+    },
+    Problem {
+        name: "uniaxial-ramberg-osgood",
+        title: "A cube of Ramberg and Osgood's curve is stretched and compressed",
+        source: "W. Ramberg and W. R. Osgood, NACA TN 902 (1943)",
+        goal: "deformation theory of plasticity at large strain",
+        mesh: "one hex8",
+        conditions: "three planes of symmetry; the stretch goes to 1.2, then to 0.9",
+        formula: "$E\\ln l = \\tau + \\alpha(|\\tau|/s_0)^{n-1}\\tau$, $E\\ln l_2 = -\\nu\\tau - \\tfrac\\alpha2(|\\tau|/s_0)^{n-1}\\tau$, $n = 5$",
+        quick: true,
+        pose: || {
+            let text = "model = \"ramberg-osgood\"\nE = 1000.0\nnu = 0.3\nreference_stress = 10.0\nexponent = 5\noffset = 0.5";
+            stretched(text, [1.2, 0.9], &ramberg_osgood)
+        },
     },
     Problem {
         name: "uniaxial-hyperfoam",
@@ -498,6 +548,31 @@ fn saint_venant() -> Setup {
     };
     let text = "model = \"saint-venant-kirchhoff\"\nE = 2.6\nnu = 0.3";
     stretched(text, [1.5, 0.8], &law)
+}
+
+/// Kirchhoff's stress by the curve of Ramberg and Osgood, E = 1000, ν = 0.3, s₀ = 10, n = 5, α = 0.5, by bisection.
+fn ramberg_osgood(l: [f64; 3]) -> [f64; 3] {
+    let (e, nu, s0, alpha) = (1000.0, 0.3, 10.0, 0.5);
+    let strain = l.map(f64::ln);
+    let trace: f64 = strain.iter().sum();
+    let deviator = strain.map(|e| e - trace / 3.0);
+    let size = (2.0 / 3.0 * deviator.iter().map(|d| d * d).sum::<f64>()).sqrt();
+    let curve = |q: f64| (2.0 * (1.0 + nu) / 3.0 * q + alpha * (q / s0).powi(4) * q) / e;
+    let (mut low, mut high) = (0.0, e * size);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if curve(middle) < size {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let secant = if size > 0.0 {
+        2.0 * low / (3.0 * size)
+    } else {
+        0.0
+    };
+    deviator.map(|d| secant * d + e / (3.0 * (1.0 - 2.0 * nu)) * trace)
 }
 
 /// `W = Σ 2μ/α² (l₁^α + l₂^α + l₃^α − 3 + (J^(−αβ) − 1)/β)`, terms as `[μ, α, ν]`.

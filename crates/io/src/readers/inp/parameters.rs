@@ -88,6 +88,7 @@ const CARDS: &[Card] = &[
         &[("REF NODE", Any), ("SURFACE", Any), ("ORIENTATION", Any), ("CONSTRAINT NAME", Any)],
         &["INFLUENCE RADIUS", "ADJUST", "ALPHA"]),
     card("CYCLIC SYMMETRY MODEL", &[("N", Any), ("TIE", Any), ("NGRAPH", Any), ("ELSET", Any), ("CHECK", Any)], &[]),
+    card("DEFORMATION PLASTICITY", &[], &[]),
     card("DENSITY", &[("FLUID", Flag)], &["DEPENDENCIES"]),
     card("DISTRIBUTING",
         &[("COUPLING", Any), ("WEIGHTING METHOD", Words(&["UNIFORM"]))],
@@ -207,6 +208,9 @@ const CARDS: &[Card] = &[
           ("NO ROTATION", Any), ("NO THICKNESS", Any), ("CONSTRAINT RATIO", Any)],
         &["TIED NSET", "MULTIBODY"]),
     card("TRANSFORM", &[("NSET", Any), ("TYPE", Any)], &[]),
+    card("USER MATERIAL",
+        &[("CONSTANTS", Any), ("TYPE", Words(&["MECHANICAL"])), ("UNSYMM", Any)],
+        &["HYBRID FORMULATION", "EFFMOD", "PROPERTIES"]),
 ];
 
 /// The cards that only print: a parameter that they do not have changes no result.

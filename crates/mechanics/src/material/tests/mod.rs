@@ -1,6 +1,7 @@
 //! Properties of every material: those of the table, plasticity, and what wraps them.
 
 mod closed;
+mod isotropic;
 mod plasticity;
 
 use super::*;
@@ -113,9 +114,14 @@ fn advance(material: &dyn Material, strain: &Strain, history: &mut Vec<f64>) -> 
     out
 }
 
-/// The largest errors of stress against differences of energy, and of tangent against differences of stress: fourth
-/// order, relative to the largest entries. None where the differences cross a kink: first yield, or a row of the table.
-fn gradient_errors(material: &dyn Material, strain: &Strain, old: &[f64]) -> Option<(f64, f64)> {
+/// The largest errors of stress against differences of energy, where the law has a potential, and of tangent against
+/// differences of stress: fourth order, relative to the largest entries. None where the differences cross a kink: first yield, or a row of the table.
+fn gradient_errors(
+    material: &dyn Material,
+    strain: &Strain,
+    old: &[f64],
+    is_smooth: bool,
+) -> Option<(f64, f64)> {
     let mut new = old.to_vec();
     let mut at = |value| {
         let mut out = Response::default();
@@ -123,7 +129,8 @@ fn gradient_errors(material: &dyn Material, strain: &Strain, old: &[f64]) -> Opt
         material
             .respond(&strain, old, &mut new, Order::Tangent, &mut out)
             .unwrap();
-        let flow = material.plastic_strain(&new).map(|plastic| {
+        let plastic = material.plastic_strain(&new).filter(|_| !is_smooth);
+        let flow = plastic.map(|plastic| {
             let rows = TABLE_OF_YIELD.iter().filter(|row| row[1] <= plastic);
             (material.plastic_strain(old) == Some(plastic), rows.count())
         });
@@ -154,7 +161,9 @@ fn gradient_errors(material: &dyn Material, strain: &Strain, old: &[f64]) -> Opt
         let [a, b, c, d] = around.map(|(out, _)| out);
         let slope = |a: f64, b: f64, c: f64, d: f64| (8.0 * (b - c) - (a - d)) / (12.0 * h);
         let energy = slope(a.energy, b.energy, c.energy, d.energy);
-        errors.0 = errors.0.max((energy - stress[q]).abs() / stress_scale);
+        if material.is_symmetric() {
+            errors.0 = errors.0.max((energy - stress[q]).abs() / stress_scale);
+        }
         let [a, b, c, d] = [a, b, c, d].map(|r| r.stress.to_pairs());
         for p in 0..6 {
             let value = here.tangent[p][q];
@@ -162,7 +171,8 @@ fn gradient_errors(material: &dyn Material, strain: &Strain, old: &[f64]) -> Opt
                 .1
                 .max((slope(a[p], b[p], c[p], d[p]) - value).abs() / tangent_scale);
             let asymmetry = (value - here.tangent[q][p]).abs();
-            assert!(asymmetry < 1e-12 * tangent_scale, "{asymmetry}");
+            let is_symmetric = asymmetry < 1e-12 * tangent_scale;
+            assert!(is_symmetric || !material.is_symmetric(), "{asymmetry}");
         }
     }
     Some(errors)
@@ -184,6 +194,10 @@ fn coincident(size: f64) -> Vec<Sym3> {
 #[test]
 fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
     for (name, material) in zoo() {
+        // deformation theory has neither a yield surface nor a table
+        let is_smooth = name.contains("ramberg-osgood");
+        // what the strain of Almansi says of the volume has no answer under large compression
+        let reach = if name.ends_with("eulerian") { 0.4 } else { 1.0 };
         for kinematics in KINEMATICS {
             let mut worst = (0.0f64, 0.0f64);
             let (mut checks, mut kinks) = (0, 0);
@@ -193,8 +207,8 @@ fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
                     ..Strain::new(kinematics, value)
                 };
                 checks += 1;
-                let Some((stress, tangent)) = gradient_errors(material.as_ref(), &strain, old)
-                else {
+                let errors = gradient_errors(material.as_ref(), &strain, old, is_smooth);
+                let Some((stress, tangent)) = errors else {
                     kinks += 1;
                     return;
                 };
@@ -209,9 +223,9 @@ fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
             // inside the yield surface (free of stress at 30 degrees is a strain of 0.04), and far outside
             check(Sym3::IDENTITY * 0.041 + random(1, 1e-3), &start);
             for k in 0..6 {
-                check(random(k, 0.25), &start);
+                check(random(k, 0.25 * reach), &start);
             }
-            for value in coincident(0.2).into_iter().chain(coincident(0.002)) {
+            for value in coincident(0.2 * reach).into_iter().chain(coincident(0.002)) {
                 check(value, &start);
             }
             // from a history: loading on, turning aside, back
@@ -219,11 +233,11 @@ fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
             for k in 0..3 {
                 let strain = Strain {
                     temperature: 30.0,
-                    ..Strain::new(kinematics, random(k, 0.2))
+                    ..Strain::new(kinematics, random(k, 0.2 * reach))
                 };
                 advance(material.as_ref(), &strain, &mut old);
                 check(strain.value * 1.3, &old);
-                check(random(k + 20, 0.25), &old);
+                check(random(k + 20, 0.25 * reach), &old);
                 check(strain.value + random(40 + k, 2e-3), &old);
                 check(strain.value * 0.98, &old);
             }
