@@ -254,6 +254,7 @@ impl Solution {
                 linear_temperatures: false,
                 at_nodes: Default::default(),
                 initial: Vec::new(),
+                axes: None,
             },
         };
         let (secondary, primary) = if way == Way::Swapped { (0, 1) } else { (1, 0) };

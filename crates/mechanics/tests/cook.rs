@@ -111,6 +111,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 linear_temperatures: false,
                 at_nodes: Default::default(),
                 initial: Vec::new(),
+                axes: None,
             },
         }],
         steps: vec![StepPart {

@@ -172,6 +172,7 @@ fn solution(
                 linear_temperatures: false,
                 at_nodes: Default::default(),
                 initial: Vec::new(),
+                axes: None,
             },
         }],
         steps: vec![StepPart {

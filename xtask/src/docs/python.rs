@@ -41,7 +41,7 @@ const NAMES: [(&str, &str); 4] = [
 ];
 
 /// Lists of tables whose singular is the method that adds to them: key, and attribute of the list.
-const LISTS: [(&str, &str); 21] = [
+const LISTS: [(&str, &str); 22] = [
     ("amplitude", "amplitudes"),
     ("axes", "axes"),
     ("body", "bodies"),
@@ -49,6 +49,7 @@ const LISTS: [(&str, &str); 21] = [
     ("contact", "contacts"),
     ("expect", "expects"),
     ("material", "materials"),
+    ("orientation", "orientations"),
     ("reference", "references"),
     ("spring", "springs"),
     ("step", "steps"),
@@ -77,10 +78,11 @@ const OBJECTS: [(&str, &str); 7] = [
 ];
 
 /// Tables whose keys methods take by name, and keys that these methods take otherwise.
-const DICTS: [(&str, &[&str]); 6] = [
+const DICTS: [(&str, &[&str]); 7] = [
     ("body", &["group", "material"]),
     ("constraint", &["kind", "on"]),
     ("contact", &["name", "primary", "secondary"]),
+    ("orientation", &[]),
     ("sets", &[]),
     ("spring", &["name"]),
     ("step.print", &["on"]),

@@ -98,6 +98,12 @@ fn form(card: &Statement) -> Option<Form> {
             "clearance, a direction of three components, nothing, stiffness, tension",
         ),
         "KINEMATIC" => each(ANY, (1, 2), "first and last degree of freedom"),
+        "DISTRIBUTION" => each(
+            SOME,
+            (7, 7),
+            "element, set or nothing, two points of three coordinates",
+        ),
+        "NODALTHICKNESS" => each(SOME, (2, 3), "node or set, thickness"),
         "ORIENTATION" => each((1, 2), (1, 6), "two points of three coordinates"),
         "PRE-TENSIONSECTION" => each(AT_MOST_ONE, (0, 3), "a direction of three components"),
         "SOLIDSECTION" => each(AT_MOST_ONE, (0, 1), "a thickness or a cross-section"),

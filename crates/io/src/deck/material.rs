@@ -17,6 +17,8 @@ pub(super) struct Properties {
     law: Option<(&'static str, Constants)>,
     /// Where its law is given.
     of_law: Place,
+    /// Whether a card of a law has been refused.
+    is_refused: bool,
     density: Option<Spanned<f64>>,
     expansion: Option<Expansion>,
     plasticity: Option<Plasticity>,
@@ -27,6 +29,11 @@ impl Properties {
     /// Whether its stiffness is known.
     pub fn has_law(&self) -> bool {
         self.law.is_some()
+    }
+
+    /// Whether the law that it was to have has been reported.
+    pub fn is_refused(&self) -> bool {
+        self.is_refused
     }
 
     /// The first elastic constant.
@@ -164,6 +171,7 @@ impl Translation<'_> {
             "HYPERFOAM" => material.law = self.foam(card, &rows).or(material.law.take()),
             "USERMATERIAL" => {
                 let law = self.user_law(card, &material.name, &rows);
+                material.is_refused |= law.is_none();
                 material.law = law.or(material.law.take());
             }
             "DEFORMATIONPLASTICITY" => {

@@ -36,6 +36,7 @@ mod material;
 mod model;
 mod names;
 pub mod oofem;
+mod orientation;
 mod print;
 mod repeated;
 mod sections;

@@ -3,13 +3,11 @@
 use super::Compat;
 use super::translation::{Target, Translation, is_truss};
 use crate::case::{
-    Amplitude, AtNodes, AtPoint, AxesSystem, Body, Factor, Integration, Locking, MaterialChange,
-    Model, Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase,
-    Unstrained,
+    Amplitude, AtNodes, AtPoint, Body, BodyAxes, Factor, Integration, Locking, MaterialChange,
+    Model, Name, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
-use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Elements whose integration points are numbered as ours are.
@@ -19,7 +17,7 @@ const POINTWISE: [&str; 5] = ["C3D4", "C3D8", "C3D8I", "C3D20", "C3D20R"];
 struct Section<'s> {
     card: &'s Statement,
     material: &'s str,
-    orientation: Option<&'s Orientation>,
+    orientation: Option<&'s BodyAxes>,
     thickness: Option<&'s Spanned<f64>>,
     /// The set of its elements, if all of this set are.
     set: Option<String>,
@@ -337,6 +335,9 @@ impl Translation<'_> {
                 continue;
             };
             let material = known.name.value.clone();
+            if !known.has_law() && known.is_refused() {
+                continue;
+            }
             if !known.has_law() {
                 let text = format!("material `{material}` has no elastic constants");
                 let one = Diagnostic::error(&codes::MISSING, text)
@@ -407,6 +408,7 @@ impl Translation<'_> {
         for card in self.cards("MEMBRANE") {
             self.membrane(card);
         }
+        self.nodal_thickness();
     }
 
     /// The number of the last section of each element, if there are several.
@@ -632,87 +634,6 @@ impl Translation<'_> {
         }
         let one = || Spanned::new(1.0, section.card.place.clone());
         Some(given.unwrap_or_else(one))
-    }
-
-    /// The second line of *ORIENTATION: the number of a local axis, the first if it is not given, and the angle by which
-    /// all turn about it.
-    fn turn(&mut self, card: &Statement, row: &[Field<'_>]) -> Option<(usize, f64)> {
-        let axis = self.count(row.first(), 1);
-        let angle = self.real(row.get(1));
-        if !(1..=3).contains(&axis) {
-            let text = format!("*ORIENTATION turns about local axis {axis}");
-            self.error(&codes::OUT_OF_RANGE, text, &card.place, "1, 2 or 3");
-            return None;
-        }
-        Some((axis as usize - 1, angle))
-    }
-
-    /// Axes of materials; nothing for those that are not supported, which have been reported.
-    fn orientations(&mut self) -> BTreeMap<String, Option<Orientation>> {
-        let mut all = BTreeMap::new();
-        self.named_twice("ORIENTATION");
-        for card in self.cards("ORIENTATION") {
-            let Some(name) = self.need(card, "NAME") else {
-                continue;
-            };
-            let cylindrical = card
-                .get("SYSTEM")
-                .map(compared)
-                .is_some_and(|s| s.starts_with('C'));
-            let mut rows = card.rows();
-            let numbers: Vec<_> = rows.next().unwrap_or_default();
-            let [a, b, c, d, e, f] = self.reals(&numbers);
-            let system = AxesSystem::Rectangular {
-                x: [a, b, c],
-                xy: [d, e, f],
-            };
-            let turn = rows.next().filter(|row| !row.is_empty());
-            let turn = turn.and_then(|row| self.turn(card, &row));
-            let orientation = if cylindrical {
-                let text = "cylindrical *ORIENTATION is not supported";
-                self.error(&codes::NOT_BUILT, text, &card.place, "");
-                None
-            } else if system.at(Vec3::ZERO).is_none() {
-                let text = "the two points of *ORIENTATION give no axes";
-                self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
-                None
-            } else {
-                let place = card.place.clone();
-                let plain = Orientation {
-                    x: [a, b, c],
-                    y: [d, e, f],
-                    place,
-                };
-                let axes = system.at(Vec3::ZERO).zip(turn);
-                Some(match axes {
-                    Some((axes, (axis, angle))) => turned(axes, axis, angle, plain.place),
-                    None => plain,
-                })
-            };
-            all.insert(compared(name), orientation);
-        }
-        all
-    }
-}
-
-/// Local axes that turn about one of themselves, counter-clockwise as seen from its tip; degrees.
-fn turned(axes: [Vec3; 3], axis: usize, angle: f64, place: Place) -> Orientation {
-    let about = axes.get(axis).copied().unwrap_or_default();
-    // quarter turns are exact
-    let quarters = (angle / 90.0).rem_euclid(4.0);
-    let (sin, cos) = match quarters {
-        0.0 => (0.0, 1.0),
-        1.0 => (1.0, 0.0),
-        2.0 => (0.0, -1.0),
-        3.0 => (-1.0, 0.0),
-        _ => angle.to_radians().sin_cos(),
-    };
-    let turn = |v: Vec3| v * cos + about.cross(v) * sin + about * (about.dot(v) * (1.0 - cos));
-    let [x, y, _] = axes.map(turn);
-    Orientation {
-        x: x.to_array(),
-        y: y.to_array(),
-        place,
     }
 }
 

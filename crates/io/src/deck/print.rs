@@ -78,7 +78,13 @@ impl Translation<'_> {
         };
         // vectors at nodes with axes of their own are along these, unless the card says otherwise
         let global = card.get("GLOBAL").map(compared).as_deref() == Some("YES");
-        let local = of == PrintOf::Nodes && !global && !self.axes.is_empty();
+        let has_axes = match of {
+            PrintOf::Nodes => !self.axes.is_empty(),
+            // tensors of materials with axes of their own are along these
+            PrintOf::Elements => self.case.bodies.iter().any(|b| b.orientation.is_some()),
+            PrintOf::Contact | PrintOf::Faces => false,
+        };
+        let local = !global && has_axes;
         let prints = step.prints.get_or_insert_default();
         prints.push(Print {
             on,

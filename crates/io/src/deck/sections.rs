@@ -2,9 +2,9 @@
 
 use super::translation::{Translation, is_truss};
 use crate::diagnostic::{Diagnostic, Place, codes};
-use crate::readers::inp::{Statement, without_volume};
+use crate::readers::inp::{Field, Kind, Statement, without_volume};
 use signorini_geometry::mesh::CellId;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Coordinates across a plane may differ by this part of its size: roundings of decimals.
 const FLAT: f64 = 1e-9;
@@ -140,6 +140,35 @@ impl Translation<'_> {
             _ => "shells, membranes and beams are not built: use solids, such as C3D8, or leave the section out",
         }));
         false
+    }
+
+    /// Thicknesses at nodes count only where a section asks for them, which none that is built does.
+    pub fn nodal_thickness(&mut self) {
+        for card in self.cards("NODALTHICKNESS") {
+            let mut nodes: BTreeSet<u64> = BTreeSet::new();
+            for row in card.rows().filter(|row| !row.is_empty()) {
+                for target in self.targets(card, row.first(), Kind::Nodes) {
+                    nodes.extend(self.labels(&target));
+                }
+                let value = self.real(row.get(1));
+                if value < 0.0 {
+                    let text = format!("the thickness of *NODAL THICKNESS is {value}");
+                    let place = row.get(1).map_or(card.place.clone(), Field::place);
+                    self.error(&codes::OUT_OF_RANGE, text, &place, "not negative");
+                }
+            }
+            let text = format!(
+                "*NODAL THICKNESS: given for {} whose section does not ask for it",
+                match nodes.len() {
+                    1 => "1 node".to_owned(),
+                    count => format!("{count} nodes"),
+                }
+            );
+            let asks = |card: &Statement| card.peek("NODALTHICKNESS").is_some();
+            if !self.deck.statements.iter().any(asks) {
+                self.note(text, &card.place);
+            }
+        }
     }
 
     /// Refuses elements of the plane that are not in one plane of constant z, and notes one that is not z = 0.

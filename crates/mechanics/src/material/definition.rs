@@ -1,6 +1,6 @@
 //! What a constitutive law is: strain in; stress, tangent and energy out.
 
-use signorini_geometry::tensor::Sym3;
+use signorini_geometry::tensor::{Mat3, Sym3};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -24,7 +24,7 @@ pub enum Kinematics {
 
 /// The strain at a point.
 #[derive(Clone, Copy, Debug)]
-pub struct Strain {
+pub struct Strain<'a> {
     /// Which measure it is.
     pub kinematics: Kinematics,
     /// Its value, tensor components.
@@ -33,9 +33,12 @@ pub struct Strain {
     pub temperature: f64,
     /// The temperature there at the start of the run.
     pub temperature_at_start: f64,
+    /// The axes of the material at the point, row by row, orthonormal; none: those of the frame. Laws without directions
+    /// ignore them.
+    pub axes: Option<&'a Mat3>,
 }
 
-impl Strain {
+impl Strain<'_> {
     /// A strain at temperature zero.
     #[must_use]
     pub const fn new(kinematics: Kinematics, value: Sym3) -> Self {
@@ -44,6 +47,7 @@ impl Strain {
             value,
             temperature: 0.0,
             temperature_at_start: 0.0,
+            axes: None,
         }
     }
 }
@@ -138,7 +142,7 @@ impl Linearity {
 ///
 /// # Example
 /// ```
-/// use signorini_geometry::tensor::Sym3;
+/// use signorini_geometry::tensor::{Mat3, Sym3};
 /// use signorini_mechanics::material::{Kinematics, Material, Order, Response, SaintVenantKirchhoff, Strain};
 ///
 /// // uniaxial strain: σ = (λ + 2μ) ε, which is the modulus

@@ -75,7 +75,7 @@ impl Expanding {
     }
 
     /// `E_e`, or `ε − x I` at small strain.
-    fn elastic(&self, strain: &Strain) -> Strain {
+    fn elastic<'a>(&self, strain: &Strain<'a>) -> Strain<'a> {
         let (x, stretch) = (self.growth(strain), self.stretch(strain));
         let free = match strain.kinematics {
             Kinematics::Small => x,

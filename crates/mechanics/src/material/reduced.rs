@@ -95,7 +95,7 @@ impl Reduced {
     }
 
     /// The strain with its free components replaced.
-    fn with(&self, strain: &Strain, free: &[f64]) -> Strain {
+    fn with<'a>(&self, strain: &Strain<'a>, free: &[f64]) -> Strain<'a> {
         let mut pairs = strain.value.to_pairs();
         for (&p, &value) in self.free.iter().zip(free) {
             pairs[p] = value;
@@ -108,7 +108,7 @@ impl Reduced {
 
     /// The strain to start from: the free components last found; where the given ones left those behind, free
     /// directions without shear that keep the volume.
-    fn first(&self, strain: &Strain, last: &[f64]) -> Result<Strain, MaterialError> {
+    fn first<'a>(&self, strain: &Strain<'a>, last: &[f64]) -> Result<Strain<'a>, MaterialError> {
         let first = self.with(strain, last);
         let ratio = (first.value * 2.0 + Sym3::IDENTITY).determinant();
         let near = (FAR.recip()..FAR).contains(&ratio);
@@ -240,7 +240,7 @@ impl Reduced {
 
     /// The strain a share of a step further; at finite strain in logarithms of the free normal components of `C`, which
     /// stay positive.
-    fn moved(&self, strain: &Strain, step: &Vector, share: f64) -> Strain {
+    fn moved<'a>(&self, strain: &Strain<'a>, step: &Vector, share: f64) -> Strain<'a> {
         let mut pairs = strain.value.to_pairs();
         for (&p, s) in self.free.iter().zip(step) {
             let s = share * s;
@@ -271,13 +271,13 @@ impl Reduced {
     }
 
     /// The strain without stress in the free directions.
-    fn find(
+    fn find<'a>(
         &self,
-        mut at: Strain,
+        mut at: Strain<'a>,
         old: &[f64],
         new: &mut [f64],
         out: &mut Response,
-    ) -> Result<Strain, MaterialError> {
+    ) -> Result<Strain<'a>, MaterialError> {
         self.inner.respond(&at, old, new, Order::Tangent, out)?;
         for _ in 0..STEPS {
             let step = self.step(&at, out)?;
@@ -290,14 +290,14 @@ impl Reduced {
     }
 
     /// The longest share of a step, by halves, that brings the potential or its slope down; `out` goes along.
-    fn search(
+    fn search<'a>(
         &self,
-        at: &Strain,
+        at: &Strain<'a>,
         step: &Vector,
         old: &[f64],
         new: &mut [f64],
         out: &mut Response,
-    ) -> Result<Strain, MaterialError> {
+    ) -> Result<Strain<'a>, MaterialError> {
         let slope = self.slope(out, step);
         let noise = 4.0 * f64::EPSILON * out.energy.abs();
         let mut trial = Response::default();

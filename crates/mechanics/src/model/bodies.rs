@@ -224,6 +224,7 @@ impl Context<'_> {
                     linear_temperatures,
                     at_nodes,
                     initial,
+                    axes,
                     ..
                 } => {
                     let mut solid = Solid::new(SolidParts {
@@ -240,6 +241,7 @@ impl Context<'_> {
                         linear_temperatures,
                         at_nodes,
                         initial: &initial,
+                        axes,
                     })?;
                     solid.set_activity(self.activity.clone());
                     for (step, material) in later {

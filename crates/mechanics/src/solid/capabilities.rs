@@ -1,6 +1,7 @@
 //! What a solid can do beyond forces: initial stiffness, elements, storage, samples.
 
 use super::at::At;
+use super::axes::at_point;
 use super::cells::{CHUNK, Cells};
 use super::kernel::Sample;
 use super::term::{Scratch, Solid, Wanted};
@@ -121,7 +122,8 @@ impl Sampled for Solid {
                     continue;
                 }
                 self.cell(block, cell, At::Trial(state), Wanted::Samples, &mut scratch)?;
-                let of_point = |s: &Sample| PointSample {
+                let frames = block.frames.of(cell);
+                let of_point = |(point, s): (usize, &Sample)| PointSample {
                     stress: s.stress,
                     strain: s.seen,
                     mechanical_strain: self.material().mechanical_strain(&Strain {
@@ -129,12 +131,15 @@ impl Sampled for Solid {
                         value: s.seen,
                         temperature: s.temperature,
                         temperature_at_start: s.temperature_at_start,
+                        axes: at_point(frames, point),
                     }),
                     plastic_strain: s.plastic_strain.unwrap_or(0.0),
                     energy: s.energy,
                     volume: s.volume_at_start,
+                    axes: at_point(frames, point).copied(),
                 };
-                out.push(*id, block.points.rule, scratch.samples.iter().map(of_point));
+                let points = scratch.samples.iter().enumerate();
+                out.push(*id, block.points.rule, points.map(of_point));
             }
         }
         Ok(())

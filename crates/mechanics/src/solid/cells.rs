@@ -1,6 +1,7 @@
 //! Cells of one element: nodes, treatment and initial state.
 
 use super::activation::Part;
+use super::axes::{Frames, MaterialAxes, on_axis};
 use super::choice::Situation;
 use super::error::SolidError;
 use super::kernel::{BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel};
@@ -8,7 +9,7 @@ use super::{AtNodes, Locking, report};
 use crate::material::{Kinematics, Material};
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, NodeId};
-use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::collections::HashMap;
 
 /// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
@@ -65,6 +66,8 @@ pub(super) struct Cells {
     pub initial: Vec<Initial>,
     // which cells take part
     pub part: Part,
+    // axes of the material, where it has some
+    pub frames: Frames,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
     pub rigidity: Vec<f64>,
 }
@@ -117,6 +120,7 @@ impl Cells {
             given: Vec::new(),
             initial: Vec::new(),
             part: Part::default(),
+            frames: Frames::default(),
         })
     }
 
@@ -179,6 +183,46 @@ impl Cells {
             to.strain = to.strain + at.strain;
         }
         self.initial.clone_from(&self.given);
+        Ok(())
+    }
+
+    /// Gives its points the axes of the material; `places` are those of its cells in the body.
+    pub fn orient(
+        &mut self,
+        body: &str,
+        axes: Option<&MaterialAxes>,
+        places: &[usize],
+        reference: &[Vec3],
+    ) -> Result<(), SolidError> {
+        self.frames = match axes {
+            None => Frames::default(),
+            Some(MaterialAxes::Uniform(axes)) => Frames::uniform(*axes),
+            Some(MaterialAxes::OfCells(all)) => {
+                let of_cell = |&place: &usize| all.get(place).copied().unwrap_or(Mat3::IDENTITY);
+                Frames::of_cells(places.iter().map(of_cell).collect())
+            }
+            Some(MaterialAxes::Cylindrical(around)) => {
+                let (low, high) = reference.iter().fold(
+                    (Vec3::from([f64::MAX; 3]), Vec3::from([f64::MIN; 3])),
+                    |(low, high), x| (low.min(*x), high.max(*x)),
+                );
+                let size = (high - low).norm();
+                let npoint = self.points.rule.npoint();
+                let mut all = Vec::with_capacity(npoint * self.labels.len());
+                for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
+                    for point in 0..npoint {
+                        let mut place = Vec3::ZERO;
+                        for (n, &node) in self.points.shape(point).iter().zip(nodes) {
+                            let x = reference.get(node as usize).copied().unwrap_or_default();
+                            place += x * *n;
+                        }
+                        let axes = around.at(place, size).ok_or_else(|| on_axis(body, label))?;
+                        all.push(axes);
+                    }
+                }
+                Frames::of_points(all, npoint)
+            }
+        };
         Ok(())
     }
 

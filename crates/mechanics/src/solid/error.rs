@@ -82,6 +82,16 @@ pub enum SolidError {
         /// Why it cannot be had.
         reason: &'static str,
     },
+    /// A point on the axis of a cylindrical system.
+    #[error(
+        "element {label} of body \"{body}\" has an integration point on the axis of its cylindrical orientation: no direction is radial there"
+    )]
+    OnAxis {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        label: u64,
+    },
     /// An axisymmetric element that reaches beyond the axis.
     #[error(
         "element {label} of body \"{body}\" reaches to the radius {radius:.6e}: in an axisymmetric model x is the radius, 0 or more"

@@ -59,6 +59,12 @@
 //!
 //! A step may remove cells and add them again, [`Solid::set_activity`]: (E18) to (E20) in `activation`.
 //!
+//! # Axes of the material
+//!
+//! A law with directions may have axes that vary, [`MaterialAxes`]: those of every quadrature point are found once, from
+//! undeformed positions, and come with the strain, [`crate::material::Strain::axes`], to [`crate::material::Oriented`]. Bodies
+//! without them keep and pass nothing.
+//!
 //! # Several at once
 //!
 //! Cells without a remedy are evaluated as many at a time as the vector registers of the processor have lanes,
@@ -80,6 +86,7 @@
 
 mod activation;
 mod at;
+mod axes;
 mod capabilities;
 mod cells;
 mod choice;
@@ -92,6 +99,7 @@ mod term;
 mod tests;
 mod truss;
 
+pub use axes::{Cylindrical, MaterialAxes, turn_about};
 pub use cells::AtStart;
 pub use choice::{Integration, Locking};
 pub use error::SolidError;

@@ -1,5 +1,6 @@
 use super::activation::{Plan, is_linear};
 use super::at::At;
+use super::axes::MaterialAxes;
 use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
 use super::error::SolidError;
@@ -68,6 +69,8 @@ pub struct SolidParts<'a> {
     pub at_nodes: AtNodes,
     /// Stress and strain at the start; zero at points that are not named.
     pub initial: &'a [AtStart],
+    /// Axes of a material that takes those of points; none: those of the frame.
+    pub axes: Option<MaterialAxes>,
 }
 
 /// Scratch of one thread.
@@ -136,6 +139,7 @@ impl Solid {
             linear_temperatures,
             at_nodes,
             initial,
+            axes,
         } = parts;
         let linear = vec![is_linear(material.as_ref())];
         let material: Box<dyn Material> = match space {
@@ -145,7 +149,9 @@ impl Solid {
         let keeps_volume = |kinematics| keeps_volume(material.as_ref(), kinematics);
         let keeps_volume = [Kinematics::Small, Kinematics::Finite].map(keeps_volume);
         let mut blocks: Vec<(u32, Cells)> = Vec::new();
-        for &id in cells {
+        // where the cells of each block are in the body
+        let mut places: Vec<Vec<usize>> = Vec::new();
+        for (place, &id) in cells.iter().enumerate() {
             let (Some(element), Some(label)) = (mesh.element(id), mesh.cell_label(id)) else {
                 continue;
             };
@@ -174,9 +180,11 @@ impl Solid {
                         cells.points.linear_temperatures(element);
                     }
                     blocks.push((id.block, cells));
+                    places.push(Vec::new());
                     blocks.len() - 1
                 }
             };
+            places[at].push(place);
             let of_block = &mut blocks[at].1;
             of_block.nodes.extend_from_slice(mesh.cell(id));
             of_block.labels.push(label);
@@ -190,6 +198,7 @@ impl Solid {
             }
             block.start(material.as_ref());
             block.begin(name, initial)?;
+            block.orient(name, axes.as_ref(), &places[number], &reference)?;
             block.rigidity = block.rigidities(&reference, space, material.modulus());
             let ncell = block.labels.len();
             chunks.extend(
@@ -519,6 +528,7 @@ impl Solid {
                 At::Start => &block.undeformed,
             },
             initial: block.initial_of(cell),
+            axes: block.frames.of(cell),
         }
     }
 

@@ -320,6 +320,7 @@ impl Truss {
                 value: Sym3::diagonal(point.strain - taken_off, 0.0, 0.0),
                 temperature,
                 temperature_at_start,
+                axes: None,
             };
             let old = match at {
                 At::Trial(_) => &self.history[bar.history + p * nhistory..][..nhistory],
@@ -439,6 +440,7 @@ impl Truss {
             value: strain,
             temperature,
             temperature_at_start,
+            axes: None,
         });
         let turned = |of: Sym3| {
             let along = dyad(point.unit);
@@ -451,6 +453,7 @@ impl Truss {
             plastic_strain: self.material.plastic_strain(history).unwrap_or(0.0),
             energy: response.energy,
             volume: point.weight * self.area,
+            axes: None,
         }
     }
 

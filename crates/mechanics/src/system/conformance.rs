@@ -190,6 +190,7 @@ fn solid(name: &str, material: fn() -> Box<dyn Material>) -> Specimen {
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: &[],
+            axes: None,
         });
         Box::new(solid.unwrap())
     })

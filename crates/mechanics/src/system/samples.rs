@@ -1,6 +1,6 @@
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::CellId;
-use signorini_geometry::tensor::Sym3;
+use signorini_geometry::tensor::{Mat3, Sym3};
 
 /// What is wanted of every accepted state besides what all frames have: nothing, unless someone asks.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +34,8 @@ pub struct PointSample {
     pub energy: f64,
     /// Volume at the start that belongs to the point.
     pub volume: f64,
+    /// Axes of the material there, undeformed, row by row; none: those of the frame.
+    pub axes: Option<Mat3>,
 }
 
 impl Samples {

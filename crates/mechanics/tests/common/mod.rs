@@ -258,6 +258,7 @@ pub fn solid(name: &str, cells: &[CellId], material: impl Material + 'static) ->
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: Vec::new(),
+            axes: None,
         },
     }
 }

@@ -456,6 +456,15 @@ class Case(k.CaseTable):
         self.sets[name] = k.Set(cast("dict[str, Any]", keys))
         return self.sets[name]
 
+    @documented(k.Orientation)
+    def orientation(self, name: str, **keys: Unpack[k.OrientationKeys]) -> k.Orientation:
+        """Adds axes of materials that bodies name.
+
+        TOML: `[orientation.NAME]`.
+        """
+        self.orientations[name] = k.Orientation(cast("dict[str, Any]", keys))
+        return self.orientations[name]
+
     def expect(
         self,
         what: str,

@@ -66,7 +66,7 @@ class Axes(Table):
 
 
 class BodyOrientation(Table):
-    """Axes of the material; absent: those of the frame.
+    """Axes of the material, the same everywhere.
 
     TOML: `body.orientation`.
     """
@@ -107,10 +107,10 @@ class Body(Table):
         default="auto",
     )
     material: Key[str | None, str] = Key("Its material; none for a rigid body", "text")
-    orientation: One[BodyOrientation] = One(
+    orientation: Mixed[BodyOrientation] = Mixed(
         BodyOrientation,
-        "Axes of the material; absent: those of the frame",
-        "a table",
+        "Axes of the material: those of an [orientation], or { x, y }; absent: those of the frame",
+        "text or a table",
     )
     reference: Key[str | None, str] = Key(
         "The [reference] a rigid body moves with; absent: the mean of its nodes",
@@ -620,9 +620,10 @@ class Material(MaterialTable):
         "Thermal expansion: strain alpha (T - reference), counted from the temperature `free` on",
         "a table",
     )
-    model: Key[Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "own"] | None, Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "own"]] = Key(
+    exponent: Key[float | None, float] = Key("Hardening exponent of ramberg-osgood, at least 1", "number")
+    model: Key[Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "rotated-linear", "ciarlet", "no-tension", "no-compression", "ramberg-osgood", "ramberg-osgood-eulerian", "own"] | None, Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "rotated-linear", "ciarlet", "no-tension", "no-compression", "ramberg-osgood", "ramberg-osgood-eulerian", "own"]] = Key(
         "The law",
-        "`\"linear-elastic\"`, `\"saint-venant-kirchhoff\"`, `\"neo-hookean\"`, `\"mooney-rivlin\"`, `\"mooney-rivlin-logarithmic\"`, `\"ogden\"`, `\"orthotropic\"`, `\"hyperfoam\"`, `\"anisotropic\"`, `\"linear-elastic-by-temperature\"`, `\"own\"`",
+        "`\"linear-elastic\"`, `\"saint-venant-kirchhoff\"`, `\"neo-hookean\"`, `\"mooney-rivlin\"`, `\"mooney-rivlin-logarithmic\"`, `\"ogden\"`, `\"orthotropic\"`, `\"hyperfoam\"`, `\"anisotropic\"`, `\"linear-elastic-by-temperature\"`, `\"rotated-linear\"`, `\"ciarlet\"`, `\"no-tension\"`, `\"no-compression\"`, `\"ramberg-osgood\"`, `\"ramberg-osgood-eulerian\"`, `\"own\"`",
     )
     mu: Key[float | list[float] | None, float | Sequence[float] | NDArray[Any]] = Key(
         "Shear moduli of the terms of ogden and hyperfoam (stress)",
@@ -635,11 +636,23 @@ class Material(MaterialTable):
     nu12: Key[float | None, float] = Key("Contraction along 2 over stretch along 1, under stress along 1", "number")
     nu13: Key[float | None, float] = Key("Contraction along 3 over stretch along 1, under stress along 1", "number")
     nu23: Key[float | None, float] = Key("Contraction along 3 over stretch along 2, under stress along 2", "number")
+    offset: Key[float | None, float] = Key(
+        "Plastic over elastic strain of ramberg-osgood at its reference stress",
+        "number ≥ 0.0",
+    )
     own: Key[str | None, str] = Key("A material of the program that runs the case, by its name there", "text")
     plasticity: One[MaterialPlasticity] = One(
         MaterialPlasticity,
         "Yielding after von Mises, of linear-elastic",
         "a table",
+    )
+    reference_stress: Key[float | None, float] = Key(
+        "Stress at which the plastic strain of ramberg-osgood is `offset` times the elastic one (stress)",
+        "number > 0.0",
+    )
+    residual: Key[float | None, float] = Key(
+        "Stress that is left of the tension of no-tension, of the compression of no-compression (stress)",
+        "number > 0.0",
     )
 
 
@@ -864,6 +877,138 @@ class LinearElasticByTemperature(Material):
         super().__init__(E=E, T=T, density=density, expansion=expansion, nu=nu, plasticity=plasticity)
 
 
+class RotatedLinear(Material):
+    """Isotropic and linear between the stretch and the second stress of Piola and Kirchhoff.
+
+    TOML: `material.NAME`.
+    """
+
+    _toml = "material.NAME"
+    _model = "rotated-linear"
+
+    def __init__(
+        self,
+        *,
+        E: float | Sequence[float] | NDArray[Any],
+        nu: float | Sequence[float] | NDArray[Any],
+        density: float | None = None,
+        expansion: MaterialExpansion | Mapping[str, Any] | None = None,
+        plasticity: MaterialPlasticity | Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__(E=E, density=density, expansion=expansion, nu=nu, plasticity=plasticity)
+
+
+class Ciarlet(Material):
+    """Isotropic, for metals under large compression.
+
+    TOML: `material.NAME`.
+    """
+
+    _toml = "material.NAME"
+    _model = "ciarlet"
+
+    def __init__(
+        self,
+        *,
+        E: float | Sequence[float] | NDArray[Any],
+        nu: float | Sequence[float] | NDArray[Any],
+        density: float | None = None,
+        expansion: MaterialExpansion | Mapping[str, Any] | None = None,
+        plasticity: MaterialPlasticity | Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__(E=E, density=density, expansion=expansion, nu=nu, plasticity=plasticity)
+
+
+class NoTension(Material):
+    """Compression alone along each principal axis, without contraction across.
+
+    TOML: `material.NAME`.
+    """
+
+    _toml = "material.NAME"
+    _model = "no-tension"
+
+    def __init__(
+        self,
+        *,
+        E: float | Sequence[float] | NDArray[Any],
+        residual: float,
+        density: float | None = None,
+        expansion: MaterialExpansion | Mapping[str, Any] | None = None,
+        plasticity: MaterialPlasticity | Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__(E=E, density=density, expansion=expansion, plasticity=plasticity, residual=residual)
+
+
+class NoCompression(Material):
+    """Tension alone along each principal axis, without contraction across.
+
+    TOML: `material.NAME`.
+    """
+
+    _toml = "material.NAME"
+    _model = "no-compression"
+
+    def __init__(
+        self,
+        *,
+        E: float | Sequence[float] | NDArray[Any],
+        residual: float,
+        density: float | None = None,
+        expansion: MaterialExpansion | Mapping[str, Any] | None = None,
+        plasticity: MaterialPlasticity | Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__(E=E, density=density, expansion=expansion, plasticity=plasticity, residual=residual)
+
+
+class RambergOsgood(Material):
+    """Plasticity by deformation theory, with a power of the stress; Kirchhoff's stress and logarithmic strain.
+
+    TOML: `material.NAME`.
+    """
+
+    _toml = "material.NAME"
+    _model = "ramberg-osgood"
+
+    def __init__(
+        self,
+        *,
+        E: float | Sequence[float] | NDArray[Any],
+        exponent: float,
+        nu: float | Sequence[float] | NDArray[Any],
+        offset: float,
+        reference_stress: float,
+        density: float | None = None,
+        expansion: MaterialExpansion | Mapping[str, Any] | None = None,
+        plasticity: MaterialPlasticity | Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__(E=E, density=density, expansion=expansion, exponent=exponent, nu=nu, offset=offset, plasticity=plasticity, reference_stress=reference_stress)
+
+
+class RambergOsgoodEulerian(Material):
+    """The same with Cauchy's stress and the strain of Almansi, as in CalculiX.
+
+    TOML: `material.NAME`.
+    """
+
+    _toml = "material.NAME"
+    _model = "ramberg-osgood-eulerian"
+
+    def __init__(
+        self,
+        *,
+        E: float | Sequence[float] | NDArray[Any],
+        exponent: float,
+        nu: float | Sequence[float] | NDArray[Any],
+        offset: float,
+        reference_stress: float,
+        density: float | None = None,
+        expansion: MaterialExpansion | Mapping[str, Any] | None = None,
+        plasticity: MaterialPlasticity | Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__(E=E, density=density, expansion=expansion, exponent=exponent, nu=nu, offset=offset, plasticity=plasticity, reference_stress=reference_stress)
+
+
 class MeshElements(Table):
     """An element written in place.
 
@@ -911,6 +1056,44 @@ class Model(Table):
         "Thickness of a model in plane strain or plane stress",
         "number > 0.0",
         default=1.0,
+    )
+
+
+class Orientation(Table):
+    """Axes of materials, of the undeformed body, that bodies name.
+
+    TOML: `orientation`.
+    """
+
+    _toml = "orientation"
+    axis: Key[Literal["x", "y", "z"] | list[float] | None, Literal["x", "y", "z"] | Sequence[float] | NDArray[Any]] = Key(
+        "The axis of a cylindrical one: \"x\", \"y\", \"z\" or a vector",
+        "`\"x\"`, `\"y\"`, `\"z\"` or list of number",
+    )
+    kind: Key[Literal["rectangular", "cylindrical", "elements"], Literal["rectangular", "cylindrical", "elements"]] = Key(
+        "The same everywhere; radial, circumferential and along an axis at every integration point; or by element",
+        "`\"rectangular\"`, `\"cylindrical\"`, `\"elements\"`",
+        default="rectangular",
+    )
+    origin: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "A point of the axis of a cylindrical one; absent: the origin",
+        "list of number",
+    )
+    rows: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [element, x, y] of elements with axes of their own",
+        "list of list of whole number ≥ 0; list of number, 3 of them",
+    )
+    turn: Key[list[Any] | None, Sequence[Any] | NDArray[Any]] = Key(
+        "Turns all axes about one of themselves, 1, 2 or 3, counter-clockwise as seen from its tip",
+        "list of whole number ≥ 1, ≤ 3; number, 2 of them",
+    )
+    x: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "Along the first axis; of elements without a row",
+        "list of number",
+    )
+    y: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "With x, spans the plane of the first two axes; of elements without a row",
+        "list of number",
     )
 
 
@@ -1390,7 +1573,7 @@ class Print(Table):
         "list of `\"force\"`",
     )
     local: Key[bool, bool] = Key(
-        "Whether vectors at nodes are printed along their [[axes]]",
+        "Whether vectors at nodes are printed along their [[axes]], and tensors at points along the axes of the material",
         "`true` or `false`",
         default=False,
     )
@@ -1746,6 +1929,12 @@ class CaseTable(Table):
     materials: Named[Material] = Named(Material, "Materials", "tables by name", key="material")
     mesh: One[Mesh] = One(Mesh, "Nodes and elements: a file, or written in place", "a table")
     model: One[Model] = One(Model, "Dimension of the model", "a table")
+    orientations: Named[Orientation] = Named(
+        Orientation,
+        "Axes of materials, of the undeformed body, that bodies name",
+        "tables by name",
+        key="orientation",
+    )
     output: One[Output] = One(Output, "What is written", "a table")
     references: Named[Reference] = Named(
         Reference,
@@ -1782,7 +1971,7 @@ if TYPE_CHECKING:
         "at_nodes": Literal["linear", "element"],
         "integration": Literal["full", "reduced", "raised"],
         "locking": Literal["auto", "none", "b-bar", "f-bar", "incompatible", "selective-shear"],
-        "orientation": BodyOrientation | Mapping[str, Any],
+        "orientation": str | BodyOrientation | Mapping[str, Any],
         "reference": str,
         "rigid": bool,
         "space": Literal["plane-strain", "plane-stress", "axisymmetric"],
@@ -1819,6 +2008,15 @@ if TYPE_CHECKING:
         "sliding": Literal["auto", "finite", "increment", "small"],
         "start": ContactStart | Mapping[str, Any],
         "tied": bool | ContactTied | Mapping[str, Any],
+    }, total=False)
+    OrientationKeys = TypedDict("OrientationKeys", {
+        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
+        "kind": Literal["rectangular", "cylindrical", "elements"],
+        "origin": Sequence[float] | NDArray[Any],
+        "rows": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
+        "turn": Sequence[Any] | NDArray[Any],
+        "x": Sequence[float] | NDArray[Any],
+        "y": Sequence[float] | NDArray[Any],
     }, total=False)
     SetKeys = TypedDict("SetKeys", {
         "at": float,

@@ -2,17 +2,17 @@
 
 use super::carriers::Carriers;
 use super::names::{Cells, Names};
+use super::orientation::{axes, axes_of_no_body, oriented};
 use super::quoted;
 use crate::own::Own;
 use crate::text::plural;
 use signorini_geometry::element::LockingClass;
 use signorini_geometry::mesh::{CellId, Mesh};
-use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_geometry::tensor::Sym3;
 use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
-    self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
-    Plasticity,
+    self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
@@ -30,6 +30,7 @@ pub(super) fn bodies(
     let one = |body| body_part(case, body, (names, carriers), own, found);
     let bodies: Vec<BodyPart> = case.bodies.iter().filter_map(one).collect();
     at_start(case, names, &bodies, found);
+    axes_of_no_body(case, names, &bodies, found);
     unchangeable(case, found);
     bodies
 }
@@ -101,7 +102,7 @@ fn body_part(
     let part =
         material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
     let density = part.density.as_ref().map(|density| density.value);
-    let material = law(part, own, found).and_then(|inner| oriented(inner, body, found))?;
+    let material = oriented(law(part, own, found)?, body);
     let later = later(case, body, own, found);
     if cells.solids.is_empty() && !cells.bars.is_empty() {
         let area = bars(body, found)?;
@@ -151,6 +152,10 @@ fn body_part(
                 case::AtNodes::Element => AtNodes::Element,
             },
             initial: initial(case, names, &cells),
+            axes: match body.orientation {
+                Some(_) => Some(axes(case, body, names, &cells, found)?),
+                None => None,
+            },
         },
         cells,
     })
@@ -187,7 +192,7 @@ fn later(
             let mut materials = case.materials.iter();
             let part = materials.find(|one| one.name.value == change.material.value);
             let material = part.and_then(|part| law(part, own, found));
-            let material = material.and_then(|inner| oriented(inner, body, found));
+            let material = material.map(|inner| oriented(inner, body));
             later.extend(material.map(|material| (number, material)));
         }
     }
@@ -311,7 +316,7 @@ fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
                 &codes::CONTRADICTION,
                 "`orientation` means nothing for bars",
             )
-            .at(&orientation.place, "the first axis of a bar lies along it"),
+            .at(orientation.place(), "the first axis of a bar lies along it"),
         );
     }
     if body.area.is_none() {
@@ -422,27 +427,6 @@ fn place_of<'a>(part: &'a case::Material, error: &ConstantsError) -> &'a Place {
 fn unfit(error: &ConstantsError, material: &Name, place: &Place) -> Diagnostic {
     Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
         .at(place, format!("in material {}", quoted(material)))
-}
-
-fn oriented(
-    inner: Box<dyn Material>,
-    body: &Body,
-    found: &mut Diagnostics,
-) -> Option<Box<dyn Material>> {
-    let Some(orientation) = &body.orientation else {
-        return Some(inner);
-    };
-    let [x, y] = [orientation.x, orientation.y].map(Vec3::from);
-    match Oriented::new(inner, x, y) {
-        Ok(material) => Some(Box::new(material)),
-        Err(error) => {
-            found.push(
-                Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
-                    .at(&orientation.place, ""),
-            );
-            None
-        }
-    }
 }
 
 /// A warning for each deformable body of linear triangles, tetrahedra or wedges.

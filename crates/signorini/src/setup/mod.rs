@@ -18,6 +18,7 @@ mod loads;
 mod mesh;
 mod names;
 mod nonlinear;
+mod orientation;
 mod own;
 mod prints;
 mod refused;

@@ -19,6 +19,8 @@ pub struct Printed {
     pub what: PrintedOf,
     /// The axes along which vectors at nodes are printed, in the order of the nodes; empty where all are global.
     pub axes: Vec<Option<[Vec3; 3]>>,
+    /// Whether tensors at integration points are printed along the axes of the material.
+    pub local: bool,
     /// Whether sums follow.
     pub totals: Totals,
     /// After how many increments.
@@ -240,6 +242,7 @@ fn printed(
         set: on.map_or_else(String::new, |on| on.value.clone()),
         what,
         axes,
+        local: one.local,
         totals: one.totals,
         every: one.every.max(1),
     })

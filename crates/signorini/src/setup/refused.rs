@@ -285,6 +285,11 @@ fn of_solid_error(error: &SolidError) -> (&'static Code, &str, &'static str) {
         SolidError::Locking { body, .. } => {
             (&codes::NOT_A_CHOICE, body, "write  locking = \"auto\"")
         }
+        SolidError::OnAxis { body, .. } => (
+            &codes::OUT_OF_RANGE,
+            body,
+            "move the axis off the elements, or give those around it axes of their own",
+        ),
         SolidError::Radius { body, .. } => (
             &codes::BAD_MESH,
             body,

@@ -6,7 +6,7 @@ use crate::problem::{Check, Problem, Setup};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 8] = [
+pub(super) const PROBLEMS: [Problem; 9] = [
     Problem {
         name: "lame-tube",
         title: "Lamé: a tube under internal pressure",
@@ -17,6 +17,17 @@ pub(super) const PROBLEMS: [Problem; 8] = [
         formula: "$u = \\frac{1+\\nu}{E}\\left((1-2\\nu)A + B/r^2\\right) r$, $\\sigma_\\theta = A + B/r^2$, $A = \\frac{p a^2}{b^2 - a^2}$, $B = A b^2$",
         quick: true,
         pose: lame_tube,
+    },
+    Problem {
+        name: "wooden-tube",
+        title: "A tube with other stiffnesses around and through its wall, under internal pressure",
+        source: "S. G. Lekhnitskii, Anisotropic Plates (1968), section 57",
+        goal: "axes of the material at every integration point",
+        mesh: "a quarter, 8 quad8 through the wall",
+        conditions: "plane stress, symmetry at x = 0 and y = 0, pressure 10 inside; E 1000 around, 250 through the wall, ν 0.1",
+        formula: "$u = A r^k + B r^{-k}$, $k^2 = E_\\theta/E_r$, $\\sigma_r = \\frac{E_r}{1 - \\nu_{r\\theta}\\nu_{\\theta r}}(u' + \\nu_{\\theta r} u/r)$",
+        quick: true,
+        pose: wooden_tube,
     },
     Problem {
         name: "lame-sphere",
@@ -204,6 +215,93 @@ fn lame_tube() -> Setup {
                 outer,
                 1e-3,
                 WHY_WALL,
+            ),
+            Check::exact(
+                "hoop stress at the bore",
+                "stress.yy @ set bore_node",
+                hoop,
+                0.01,
+                WHY_STRESS,
+            ),
+        ],
+    }
+}
+
+/// Displacement and hoop stress of a cylindrically orthotropic tube under a pressure inside, at both radii.
+fn orthotropic_tube([a, b]: [f64; 2], [er, et, nu]: [f64; 3], p: f64) -> [[f64; 2]; 2] {
+    // ν_θr/E_θ = ν_rθ/E_r
+    let (k, other) = ((et / er).sqrt(), nu * et / er);
+    let stiffness = er / (1.0 - nu * other);
+    // σ_r of r^s over r^(s − 1)
+    let radial = |s: f64, r: f64| stiffness * (s + other) * r.powf(s - 1.0);
+    let [[m11, m12], [m21, m22]] = [a, b].map(|r| [radial(k, r), radial(-k, r)]);
+    let determinant = m11 * m22 - m12 * m21;
+    let (grow, fall) = (-p * m22 / determinant, p * m21 / determinant);
+    let hoop = |s: f64, r: f64| et / (1.0 - nu * other) * (1.0 + nu * s) * r.powf(s - 1.0);
+    [a, b].map(|r| {
+        let u = grow * r.powf(k) + fall * r.powf(-k);
+        [u, grow * hoop(k, r) + fall * hoop(-k, r)]
+    })
+}
+
+fn wooden_tube() -> Setup {
+    let mut grid = Grid::plane();
+    ring(&mut grid, "wall", [1.0, 2.0], [8, 10]);
+    quarter_sets(&mut grid, [1.0, 2.0]);
+    let [[inner, hoop], [outer, _]] = orthotropic_tube([1.0, 2.0], [250.0, 1000.0, 0.1], 10.0);
+    let case = format!(
+        r#"
+[model]
+space = "plane-stress"
+
+[material.wood]
+model = "orthotropic"
+E1 = 250.0
+E2 = 1000.0
+E3 = 400.0
+nu12 = 0.1
+nu13 = 0.05
+nu23 = 0.2
+G12 = 90.0
+G13 = 80.0
+G23 = 70.0
+
+[orientation.rings]
+kind = "cylindrical"
+axis = "z"
+
+[[body]]
+group = "wall"
+material = "wood"
+orientation = "rings"
+
+[[step]]
+name = "press"
+geometry = "linear"
+increments = {{ fixed = 1 }}
+{HELD}
+  [[step.load]]
+  on = "wall_left"
+  pressure = 10.0
+"#
+    );
+    Setup {
+        mesh: grid,
+        case,
+        checks: vec![
+            Check::exact(
+                "bore widens by",
+                "displacement.x @ set bore_node",
+                inner,
+                1e-3,
+                "discretization: 8 quadratic cells through the wall",
+            ),
+            Check::exact(
+                "rim widens by",
+                "displacement.x @ set rim_node",
+                outer,
+                1e-3,
+                "discretization: 8 quadratic cells through the wall",
             ),
             Check::exact(
                 "hoop stress at the bore",

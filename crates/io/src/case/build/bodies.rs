@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 
 use signorini_vocabulary::Description;
+use toml::Spanned as Ranged;
+use toml::de::DeValue;
 
+use super::super::check::id;
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::super::scalar::number;
@@ -224,7 +227,6 @@ impl Builder<'_> {
         });
         self.plane(&fields, space.as_ref(), name);
         let locking = fields.text("locking");
-        let orientation = fields.table("orientation");
         Body {
             material: fields.text_if("material"),
             integration: match fields.text("integration").value.as_str() {
@@ -243,9 +245,7 @@ impl Builder<'_> {
                 },
                 locking.place,
             ),
-            orientation: fields
-                .has("orientation")
-                .then(|| self.orientation(orientation, fields.place("orientation"))),
+            orientation: self.body_axes(&fields),
             space,
             thickness: fields.number_if("thickness"),
             temperatures: match fields.text("temperatures").value.as_str() {
@@ -308,21 +308,122 @@ impl Builder<'_> {
         }
     }
 
-    fn orientation(&mut self, fields: Fields<'_>, place: Place) -> Orientation {
+    /// The axes of the material of a body, by name or in place.
+    fn body_axes(&mut self, fields: &Fields<'_>) -> Option<BodyAxes> {
+        if let Some(name) = fields.text_if("orientation") {
+            return Some(BodyAxes::Named(name));
+        }
+        if !fields.has("orientation") {
+            return None;
+        }
+        let of = fields.table("orientation");
+        let place = fields.place("orientation");
+        let [x, y] = self.plane_of(of, &place);
+        Some(BodyAxes::Here(Orientation { x, y, place }))
+    }
+
+    /// Axes of materials with a name.
+    pub(super) fn named_orientation(
+        &mut self,
+        name: Name,
+        fields: Fields<'_>,
+        place: Place,
+    ) -> NamedOrientation {
+        let kind = fields.text("kind").value;
+        let (needed, others): (&[&str], &[&str]) = match kind.as_str() {
+            "cylindrical" => (&["axis"], &["x", "y", "rows"]),
+            "elements" => (&["rows"], &["origin", "axis"]),
+            _ => (&["x", "y"], &["origin", "axis", "rows"]),
+        };
+        for key in needed.iter().filter(|key| !fields.has(key)) {
+            let message = format!("orientation \"{}\" has no `{key}`", name.value);
+            let remark = format!("kind = \"{kind}\" needs it");
+            self.error(&codes::MISSING, message, &place, remark);
+        }
+        for key in others.iter().filter(|key| fields.has(key)) {
+            let message = format!("`{key}` means nothing for a {kind} orientation");
+            let remark = "delete it, or choose another kind";
+            self.error(&codes::CONTRADICTION, message, &fields.place(key), remark);
+        }
+        let system = match kind.as_str() {
+            "cylindrical" => {
+                let axis = self.line(fields, "axis").unwrap_or_default();
+                MaterialSystem::Cylindrical {
+                    origin: self.vector(fields, "origin").unwrap_or_default(),
+                    axis,
+                }
+            }
+            "elements" => {
+                let [x, y] = match fields.has("x") {
+                    true => self.plane_of(fields, &place),
+                    false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+                };
+                let rows = self.axes_of_elements(fields);
+                MaterialSystem::Elements { x, y, rows }
+            }
+            _ => {
+                let [x, y] = self.plane_of(fields, &place);
+                MaterialSystem::Rectangular { x, y }
+            }
+        };
+        let turn = fields.row::<2>("turn").and_then(|[axis, angle]| {
+            let axis = usize::try_from(id(axis)?).ok()?.checked_sub(1)?;
+            Some((axis, number(angle.get_ref())?))
+        });
+        NamedOrientation {
+            name,
+            system,
+            turn,
+            place,
+        }
+    }
+
+    fn axes_of_elements(&mut self, fields: Fields<'_>) -> Vec<ElementAxes> {
+        let mut all = Vec::new();
+        for row in fields.rows("rows") {
+            let Some([element, x, y]) = row.get_ref().as_array().map(|items| &**items) else {
+                continue;
+            };
+            let place = fields.at(row.span());
+            let mut vector = |item: &Ranged<DeValue<'_>>| {
+                self.vector_at(item.get_ref(), fields.at(item.span()), "rows")
+            };
+            let (Some(element), Some(x), Some(y)) = (id(element), vector(x), vector(y)) else {
+                continue;
+            };
+            self.spans_plane([x, y], &place);
+            all.push(ElementAxes {
+                element,
+                x,
+                y,
+                place,
+            });
+        }
+        all
+    }
+
+    /// The vectors `x` and `y` of axes, which may not be parallel.
+    fn plane_of(&mut self, fields: Fields<'_>, place: &Place) -> [[f64; 3]; 2] {
         let x = self.vector(fields, "x").unwrap_or_default();
         let y = self.vector(fields, "y").unwrap_or_default();
+        if fields.has("x") && fields.has("y") {
+            self.spans_plane([x, y], place);
+        }
+        [x, y]
+    }
+
+    fn spans_plane(&mut self, [x, y]: [[f64; 3]; 2], place: &Place) {
         let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>();
         let (xx, yy, xy) = (dot(x, x), dot(y, y), dot(x, y));
         // sin² of the angle between them
-        if fields.has("x") && fields.has("y") && xx * yy - xy * xy <= 1e-12 * xx * yy {
+        if xx * yy - xy * xy <= 1e-12 * xx * yy {
             self.error(
                 &codes::OUT_OF_RANGE,
                 "the vectors of `orientation` span no plane",
-                &place,
+                place,
                 "`x` and `y` are parallel, or zero",
             );
         }
-        Orientation { x, y, place }
     }
 
     pub(super) fn spring(&mut self, fields: Fields<'_>, place: Place) -> Spring {

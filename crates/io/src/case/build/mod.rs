@@ -100,6 +100,11 @@ impl Builder<'_> {
                 .into_iter()
                 .map(|(name, fields, place)| self.material(name, fields, place))
                 .collect(),
+            orientations: root
+                .named("orientation")
+                .into_iter()
+                .map(|(name, fields, place)| self.named_orientation(name, fields, place))
+                .collect(),
             bodies: root
                 .tables("body")
                 .into_iter()

@@ -197,16 +197,11 @@ impl Builder<'_> {
     pub(super) fn references(&mut self, case: &Case, root: Fields<'_>) {
         // Where a list of definitions has a wrong form, which has been reported, nobody knows what it defines.
         let known = |key: &str| !root.has(key) || root.is_of_its_form(key);
-        let materials: BTreeSet<&str> =
-            case.materials.iter().map(|one| one.name.as_str()).collect();
-        let changes = case.steps.iter().flat_map(|step| &step.materials);
-        let bodies = case.bodies.iter();
-        for material in bodies
-            .filter_map(|body| body.material.as_ref())
-            .chain(changes.map(|change| &change.material))
-            .filter(|_| known("material"))
-        {
-            self.reference("material", material, &materials);
+        if known("material") {
+            self.materials_named(case);
+        }
+        if known("orientation") {
+            self.orientations_of_bodies(case);
         }
         let amplitudes: BTreeSet<&str> = case
             .amplitudes
@@ -291,6 +286,32 @@ impl Builder<'_> {
                 Diagnostic::error(&codes::MISSING, "there is no step: nothing would happen")
                     .help("write [[step]]"),
             );
+        }
+    }
+
+    /// Materials that bodies and steps name.
+    fn materials_named(&mut self, case: &Case) {
+        let materials: BTreeSet<&str> =
+            case.materials.iter().map(|one| one.name.as_str()).collect();
+        let changes = case.steps.iter().flat_map(|step| &step.materials);
+        let bodies = case.bodies.iter();
+        for material in bodies
+            .filter_map(|body| body.material.as_ref())
+            .chain(changes.map(|change| &change.material))
+        {
+            self.reference("material", material, &materials);
+        }
+    }
+
+    /// Orientations that bodies name.
+    fn orientations_of_bodies(&mut self, case: &Case) {
+        let known: BTreeSet<&str> = (case.orientations.iter())
+            .map(|one| one.name.as_str())
+            .collect();
+        for body in &case.bodies {
+            if let Some(BodyAxes::Named(name)) = &body.orientation {
+                self.reference("orientation", name, &known);
+            }
         }
     }
 

@@ -152,7 +152,7 @@ pub struct Body {
     /// What is done against locking.
     pub locking: Spanned<Locking>,
     /// Axes of the material; none: those of the frame.
-    pub orientation: Option<Orientation>,
+    pub orientation: Option<BodyAxes>,
     /// What its plane stands for; none: what that of the model does.
     pub space: Option<Spanned<Space>>,
     /// Thickness in a plane model (length); none: that of the model.
@@ -202,6 +202,80 @@ pub enum AtNodes {
     Linear,
     /// By the field of its own shape functions that comes closest to them, where it has as many points as nodes.
     Element,
+}
+
+/// Axes of the material of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodyAxes {
+    /// The same everywhere.
+    Here(Orientation),
+    /// Those of an orientation of the case.
+    Named(Name),
+}
+
+impl BodyAxes {
+    /// Where they were written.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Here(one) => &one.place,
+            Self::Named(name) => &name.place,
+        }
+    }
+}
+
+/// Named axes of materials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedOrientation {
+    /// Its name.
+    pub name: Name,
+    /// How the axes lie.
+    pub system: MaterialSystem,
+    /// One of the axes, from 0, about which all are turned then, and by how many degrees.
+    pub turn: Option<(usize, f64)>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// How axes of materials lie.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialSystem {
+    /// The same everywhere.
+    Rectangular {
+        /// Along the first axis.
+        x: [f64; 3],
+        /// Towards the second axis.
+        y: [f64; 3],
+    },
+    /// Radial, circumferential and along an axis, at every integration point.
+    Cylindrical {
+        /// A point of the axis.
+        origin: [f64; 3],
+        /// Its direction, of any length.
+        axis: [f64; 3],
+    },
+    /// By element.
+    Elements {
+        /// Along the first axis of elements without a row.
+        x: [f64; 3],
+        /// Towards their second axis.
+        y: [f64; 3],
+        /// Those of elements.
+        rows: Vec<ElementAxes>,
+    },
+}
+
+/// Axes in an element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementAxes {
+    /// Its number.
+    pub element: u64,
+    /// Along the first axis.
+    pub x: [f64; 3],
+    /// Towards the second axis.
+    pub y: [f64; 3],
+    /// Where it was written.
+    pub place: Place,
 }
 
 /// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.

@@ -47,6 +47,8 @@ pub struct Case {
     pub amplitudes: Vec<Amplitude>,
     /// Materials.
     pub materials: Vec<Material>,
+    /// Named axes of materials.
+    pub orientations: Vec<NamedOrientation>,
     /// Which groups are solids, bars or rigid tools.
     pub bodies: Vec<Body>,
     /// Springs.

@@ -325,7 +325,8 @@ pub struct Print {
     pub quantities: Vec<Spanned<String>>,
     /// Whether sums follow.
     pub totals: Totals,
-    /// Whether vectors at nodes are printed along the local axes that these have.
+    /// Whether vectors at nodes are printed along the local axes that these have, and tensors at integration points along
+    /// the axes of the material.
     pub local: bool,
     /// After how many increments; the end of the step is always printed.
     pub every: u64,

@@ -13,7 +13,8 @@ use super::parts::*;
 use super::vocabulary::Vocabulary;
 use contact::contact;
 use model::{
-    body, constraint, initial, local_axes, material, mesh, model, reference, set_content, spring,
+    body, constraint, initial, local_axes, material, mesh, model, orientation, reference,
+    set_content, spring,
 };
 use run::{checkpoint, expectation, output, solver};
 use steps::{amplitude, step};
@@ -53,6 +54,10 @@ fn tree(case: &Case) -> Entries {
         (
             "material",
             named(&case.materials, |one| (&one.name, material(one))),
+        ),
+        (
+            "orientation",
+            named(&case.orientations, |one| (&one.name, orientation(one))),
         ),
         ("body", tables(&case.bodies, body)),
         ("spring", tables(&case.springs, spring)),

@@ -202,6 +202,39 @@ fn plasticity(one: &Plasticity) -> Entries {
     entries
 }
 
+fn plane_of(x: &[f64; 3], y: &[f64; 3]) -> Entries {
+    vec![("x", x.into()), ("y", y.into())]
+}
+
+pub(super) fn orientation(one: &NamedOrientation) -> Entries {
+    let mut entries: Entries = match &one.system {
+        MaterialSystem::Rectangular { x, y } => {
+            let mut entries = vec![("kind", "rectangular".into())];
+            entries.extend(plane_of(x, y));
+            entries
+        }
+        MaterialSystem::Cylindrical { origin, axis } => vec![
+            ("kind", "cylindrical".into()),
+            ("origin", origin.into()),
+            ("axis", axis.into()),
+        ],
+        MaterialSystem::Elements { x, y, rows } => {
+            let row = |one: &ElementAxes| {
+                Value::List(vec![one.element.into(), (&one.x).into(), (&one.y).into()])
+            };
+            let mut entries = vec![("kind", "elements".into())];
+            entries.extend(plane_of(x, y));
+            entries.push(("rows", Value::List(rows.iter().map(row).collect())));
+            entries
+        }
+    };
+    entries.extend(one.turn.map(|(axis, angle)| {
+        let axis = Value::from(axis as u64 + 1);
+        ("turn", Value::List(vec![axis, angle.into()]))
+    }));
+    entries
+}
+
 pub(super) fn body(body: &Body) -> Entries {
     let mut entries = vec![("group", names(&body.groups))];
     if body.rigid {
@@ -222,8 +255,11 @@ pub(super) fn body(body: &Body) -> Entries {
         ("locking", body.locking.word().into()),
     ]);
     entries.extend(body.orientation.as_ref().map(|one| {
-        let entries = vec![("x", one.x.into()), ("y", one.y.into())];
-        ("orientation", Value::Table(entries))
+        let value = match one {
+            BodyAxes::Here(one) => Value::Table(plane_of(&one.x, &one.y)),
+            BodyAxes::Named(name) => (&name.value).into(),
+        };
+        ("orientation", value)
     }));
     let space = body.space.as_ref();
     entries.extend(space.map(|space| ("space", space.word().into())));

@@ -21,6 +21,7 @@ pub(super) fn faults() -> Vec<(&'static str, Vec<u8>)> {
         pairs(),
         surfaces(),
         units(),
+        orientations(),
     ];
     let texts = texts.into_iter().flatten();
     let bytes = texts.map(|(name, text)| (name, text.into_bytes()));
@@ -492,6 +493,43 @@ fn surfaces() -> Vec<Fault> {
         (
             "a set and a surface of one name",
             surface("stl = \"a.stl\"").replace("\"floor\"", "\"top\""),
+        ),
+    ]
+}
+
+/// Axes of materials.
+fn orientations() -> Vec<Fault> {
+    let with = |axes: &str| {
+        let named = "material = \"soft\"\norientation = \"rings\"";
+        let text = brick("material = \"soft\"", named);
+        text.replace("[[contact]]", &format!("[orientation.{axes}\n[[contact]]"))
+    };
+    vec![
+        (
+            "an orientation that is not there",
+            with("ring]\nx = [1, 0, 0]\ny = [0, 1, 0]"),
+        ),
+        (
+            "an orientation without its axis",
+            with("rings]\nkind = \"cylindrical\""),
+        ),
+        (
+            "an orientation with keys of another kind",
+            with(
+                "rings]\nkind = \"cylindrical\"\naxis = \"z\"\nrows = [[1, [1, 0, 0], [0, 1, 0]]]",
+            ),
+        ),
+        (
+            "parallel axes of an element",
+            with("rings]\nkind = \"elements\"\nrows = [[1, [1, 0, 0], [2, 0, 0]]]"),
+        ),
+        (
+            "an axis without direction",
+            with("rings]\nkind = \"cylindrical\"\naxis = [0, 0, 0]"),
+        ),
+        (
+            "a turn about a fourth axis",
+            with("rings]\nx = [1, 0, 0]\ny = [0, 1, 0]\nturn = [4, 30]"),
         ),
     ]
 }

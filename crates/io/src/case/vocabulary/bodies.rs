@@ -102,7 +102,11 @@ pub(super) static BODY: Table = Table {
             "what is done against locking",
         )
         .or(Default::Text("auto")),
-        key("orientation", Shape::Table(&ORIENTATION), ORIENTATION.doc),
+        key(
+            "orientation",
+            Shape::Either(&[Shape::Text, Shape::Table(&ORIENTATION)]),
+            "axes of the material: those of an [orientation], or { x, y }; absent: those of the frame",
+        ),
         key(
             "space",
             Shape::Choice(geometry::PLANES),
@@ -148,9 +152,41 @@ pub(super) static BODY: Table = Table {
     rules: &[],
 };
 
+pub(super) static NAMED_ORIENTATION: Table = Table {
+    heading: "[orientation.NAME]",
+    doc: "axes of materials, of the undeformed body, that bodies name",
+    keys: &[
+        key(
+            "kind",
+            Shape::Choice(&[word("rectangular"), word("cylindrical"), word("elements")]),
+            "the same everywhere; radial, circumferential and along an axis at every integration point; or by element",
+        )
+        .or(Default::Text("rectangular")),
+        key("x", VECTOR, "along the first axis; of elements without a row"),
+        key(
+            "y",
+            VECTOR,
+            "with x, spans the plane of the first two axes; of elements without a row",
+        ),
+        key("origin", VECTOR, "a point of the axis of a cylindrical one; absent: the origin").hints(&["from"]),
+        key("axis", LINE, "the axis of a cylindrical one: \"x\", \"y\", \"z\" or a vector").hints(&["direction"]),
+        key(
+            "rows",
+            Shape::List(&Shape::Row("[element, x, y]", &[ID, VECTOR, VECTOR]), 1, MANY),
+            "rows [element, x, y] of elements with axes of their own",
+        ),
+        key(
+            "turn",
+            Shape::Row("[axis, degrees]", &[Shape::Integer(1, 3), ANY]),
+            "turns all axes about one of themselves, 1, 2 or 3, counter-clockwise as seen from its tip",
+        ),
+    ],
+    rules: &[Rule::Needs("x", "y"), Rule::Needs("y", "x")],
+};
+
 static ORIENTATION: Table = Table {
     heading: "orientation",
-    doc: "axes of the material; absent: those of the frame",
+    doc: "axes of the material, the same everywhere",
     keys: &[
         key("x", VECTOR, "along the first axis").required(),
         key("y", VECTOR, "with x, spans the plane of the first two axes").required(),

@@ -388,7 +388,7 @@ static PRINT: Table = Table {
         key(
             "local",
             Shape::Flag,
-            "whether vectors at nodes are printed along their [[axes]]",
+            "whether vectors at nodes are printed along their [[axes]], and tensors at points along the axes of the material",
         )
         .or(Default::Flag(false)),
         key(

@@ -1,6 +1,6 @@
 //! The whole case.
 
-use super::bodies::{BODY, CONSTRAINT, MATERIAL, SPRING};
+use super::bodies::{BODY, CONSTRAINT, MATERIAL, NAMED_ORIENTATION, SPRING};
 use super::contact::CONTACT;
 use super::geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET};
 use super::run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
@@ -22,9 +22,10 @@ pub(super) static CASE: Table = Table {
         key("model", Shape::Table(&MODEL), MODEL.doc),
         key("sets", Shape::Named(&SET), SET.doc).hints(&["set"]),
         key("reference", Shape::Named(&REFERENCE), REFERENCE.doc).hints(&["references", "point"]),
-        key("axes", Shape::Tables(&AXES), AXES.doc).hints(&["transform", "orientation"]),
+        key("axes", Shape::Tables(&AXES), AXES.doc).hints(&["transform"]),
         key("amplitude", Shape::Named(&AMPLITUDE), AMPLITUDE.doc).hints(&["amplitudes"]),
         key("material", Shape::Named(&MATERIAL), MATERIAL.doc).hints(&["materials"]),
+        key("orientation", Shape::Named(&NAMED_ORIENTATION), NAMED_ORIENTATION.doc).hints(&["orientations"]),
         key("body", Shape::Tables(&BODY), BODY.doc).hints(&["bodies", "part", "section"]),
         key("surface", Shape::Tables(&SURFACE), SURFACE.doc).hints(&["surfaces"]),
         key("contact", Shape::Tables(&CONTACT), CONTACT.doc).hints(&["contacts", "pair", "interface"]),

@@ -102,6 +102,8 @@ pub enum Of {
     Local(u64),
     /// A point of an element, from 1.
     Point(u64, usize),
+    /// A point of an element, from 1, along the axes of its material.
+    LocalPoint(u64, usize),
     /// A side of an element, from 1.
     Side(u64, usize),
     /// The whole set.
@@ -144,7 +146,9 @@ impl Page {
         // writing to a string cannot fail
         let _ = match of {
             Of::One(label) | Of::Local(label) => write!(self.text, "{label:10}"),
-            Of::Point(label, point) => write!(self.text, "{label:10} {point:3}"),
+            Of::Point(label, point) | Of::LocalPoint(label, point) => {
+                write!(self.text, "{label:10} {point:3}")
+            }
             Of::Side(label, side) => write!(self.text, "{label:10} {side:10}"),
             Of::All => write!(self.text, "{:6}", ""),
             Of::Both => write!(self.text, "{:2}", ""),
@@ -153,7 +157,7 @@ impl Page {
             self.text.push(' ');
             put_number(&mut self.text, *number);
         }
-        if matches!(of, Of::Local(_)) {
+        if matches!(of, Of::Local(_) | Of::LocalPoint(..)) {
             self.text.push_str(" L");
         }
         self.text.push('\n');

@@ -92,7 +92,7 @@ fn zoo() -> Vec<(String, Box<dyn Material>)> {
     all
 }
 
-fn finite(value: Sym3) -> Strain {
+fn finite(value: Sym3) -> Strain<'static> {
     Strain::new(Kinematics::Finite, value)
 }
 

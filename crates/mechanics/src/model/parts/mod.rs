@@ -8,7 +8,7 @@ use super::ActivityPart;
 use crate::connector::SpringLaw;
 use crate::load::{Acting, Course};
 use crate::material::Material;
-use crate::solid::{AtNodes, AtStart, Integration, Locking};
+use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes};
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -101,6 +101,8 @@ pub enum BodyKind {
         at_nodes: AtNodes,
         /// Stress and strain at the start.
         initial: Vec<AtStart>,
+        /// Axes of a material that takes those of points; none: those of the frame.
+        axes: Option<MaterialAxes>,
     },
     /// Bars that carry normal force only: cells of lines.
     Truss {
@@ -131,6 +133,7 @@ impl BodyKind {
             linear_temperatures: false,
             at_nodes: AtNodes::default(),
             initial: Vec::new(),
+            axes: None,
         }
     }
 

@@ -24,6 +24,8 @@ pub(in crate::solid) struct Element<'a> {
     pub old: &'a [f64],
     /// What each point has at the start; empty where no point has anything.
     pub initial: &'a [Initial],
+    /// Axes of the material: none, those of the cell, or of each point.
+    pub axes: &'a [Mat3],
 }
 
 /// What a point has at the start.

@@ -22,6 +22,7 @@ pub(super) use batch::{Batch, BatchKernel, Results};
 pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 pub(super) use lanes::width;
 
+use super::axes::at_point;
 use super::dense;
 use crate::material::{Kinematics, MaterialError, Order, Response, Strain};
 use crate::system::Idealisation;
@@ -192,6 +193,7 @@ impl Element<'_> {
             value: initial.map_or(value, |at| value - at.strain),
             temperature: self.temperature(point, self.temperature),
             temperature_at_start: self.temperature(point, self.temperature_at_start),
+            axes: at_point(self.axes, point),
         };
         let nhistory = self.material.nhistory();
         let at = point * nhistory..(point + 1) * nhistory;

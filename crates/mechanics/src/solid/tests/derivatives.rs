@@ -190,12 +190,10 @@ fn forces_are_the_gradient_of_energy_and_stiffness_that_of_forces_for_all_that_i
                             refused += 1;
                             continue;
                         };
-                        // a sheet of an unsymmetric law: its search for the thickness wants a potential
-                        let sheet = matches!(space, Idealisation::PlaneStress { .. });
-                        let potential = *law != "unsymmetric";
+                        let potential = make().is_symmetric();
                         let distinct =
                             integration == Integration::Full || ["quad8", "hex20"].contains(&name);
-                        if !distinct || locking == Locking::Auto || (sheet && !potential) {
+                        if !distinct || locking == Locking::Auto {
                             continue;
                         }
                         check(&body, potential, &what);

@@ -161,6 +161,7 @@ fn stiffness_at_the_start_is_that_of_the_temperature_at_the_start() {
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: &[],
+            axes: None,
         };
         Solid::new(parts).unwrap()
     };
@@ -226,6 +227,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         linear_temperatures: false,
         at_nodes: Default::default(),
         initial: &[],
+        axes: None,
     })
     .unwrap();
     assert_eq!(solid.properties().symmetry, Symmetry::Unsymmetric);

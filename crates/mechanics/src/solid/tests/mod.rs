@@ -15,6 +15,7 @@ use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
+mod axes;
 mod batch;
 mod derivatives;
 mod history;
@@ -126,6 +127,7 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         linear_temperatures: false,
         at_nodes: Default::default(),
         initial: &[],
+        axes: None,
     })?;
     solid.locking(wish.kinematics)?;
     solid.set_kinematics(wish.kinematics);

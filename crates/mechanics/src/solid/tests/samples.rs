@@ -157,6 +157,7 @@ fn thermal_growth_is_no_mechanical_strain() {
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: &[],
+            axes: None,
         })
         .unwrap();
         let u: Vec<f64> = (0..plain.layout.ndof()).map(|k| 0.02 * noise(k)).collect();

@@ -58,6 +58,7 @@ fn hexahedra_assembled_per_second() {
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: &[],
+            axes: None,
         });
         let mut solid = solid.unwrap();
         solid.set_kinematics(if nonlinear {

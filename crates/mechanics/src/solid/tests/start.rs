@@ -31,6 +31,7 @@ fn with(
         linear_temperatures: heat.is_some_and(|(_, linear)| linear),
         at_nodes: Default::default(),
         initial,
+        axes: None,
     })?;
     solid.set_kinematics(wish.kinematics);
     Ok(Body { solid, ..plain })

@@ -214,6 +214,7 @@ impl Bar {
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: &[],
+            axes: None,
         });
         let heat = Heat {
             layout,

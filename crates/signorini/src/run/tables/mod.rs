@@ -290,14 +290,14 @@ impl Writer<'_> {
     fn elements(&mut self, one: &Printed, cells: &[CellId], quantity: ElementQuantity) {
         match quantity {
             ElementQuantity::Stress => {
-                self.tensors(Kind::Stresses, &one.set, cells, |s| s.stress);
+                self.tensors(Kind::Stresses, one, cells, |s| s.stress);
             }
             ElementQuantity::Strain => {
-                self.tensors(Kind::Strains, &one.set, cells, |s| s.strain);
+                self.tensors(Kind::Strains, one, cells, |s| s.strain);
             }
             ElementQuantity::MechanicalStrain => {
                 let kind = Kind::MechanicalStrains;
-                self.tensors(kind, &one.set, cells, |s| s.mechanical_strain);
+                self.tensors(kind, one, cells, |s| s.mechanical_strain);
             }
             ElementQuantity::PlasticStrain => {
                 // never negative, carried to other points or not
@@ -337,10 +337,28 @@ impl Writer<'_> {
         }
     }
 
-    fn tensors(&mut self, kind: Kind, set: &str, cells: &[CellId], of: fn(&PointSample) -> Sym3) {
-        self.page.table(kind, set);
+    /// Tensors at points; along the axes of the undeformed material where that is wanted and the material has some.
+    fn tensors(
+        &mut self,
+        kind: Kind,
+        one: &Printed,
+        cells: &[CellId],
+        of: fn(&PointSample) -> Sym3,
+    ) {
+        self.page.table(kind, &one.set);
+        let axes = |s: &PointSample| s.axes.filter(|_| one.local);
         self.at_points(cells, |page, of_point, points, place, samples| {
-            let value = points.tensor(place, |p| samples.get(p).map_or(Sym3::ZERO, of));
+            let value = |s: &PointSample| match axes(s) {
+                Some(axes) => of(s).congruence(axes),
+                None => of(s),
+            };
+            let value = points.tensor(place, |p| samples.get(p).map_or(Sym3::ZERO, value));
+            let of_point = match of_point {
+                Of::Point(cell, point) if samples.iter().any(|s| axes(s).is_some()) => {
+                    Of::LocalPoint(cell, point)
+                }
+                other => other,
+            };
             page.row(of_point, &tensor(&value));
         });
     }

@@ -97,6 +97,38 @@ load = [{ name = "more", on = "top", traction = [0, 0, 0] }]
 "#;
 
 #[test]
+fn tensors_are_printed_along_the_axes_of_the_material_where_that_is_asked_for() {
+    let plain = "[[body]]\ngroup = \"brick\"\nmaterial = \"m\"\n";
+    let axes = "[orientation.C]\nkind = \"cylindrical\"\norigin = [-1, -1, 0]\naxis = \"y\"\n";
+    assert!(PULLED.contains(plain));
+    let text = PULLED.replace(plain, &format!("{axes}{plain}orientation = \"C\"\n"));
+    let global = table(&dat(&text), "stresses");
+    for row in &global {
+        assert_close(&row[2..], &[0.0, 0.0, 20.0, 0.0, 0.0, 0.0], 20.0);
+    }
+    let local = dat(&text.replace("{ on = \"brick\",", "{ on = \"brick\", local = true,"));
+    // a row that is along axes of its own ends with an L
+    let rows: Vec<&str> = local.lines().filter(|line| line.ends_with(" L")).collect();
+    assert_eq!(
+        rows.len() % 24,
+        0,
+        "stress, strain and mechanical strain of eight points"
+    );
+    let last = local.rfind("stresses (").unwrap();
+    let rows = local[last..].lines().filter(|line| line.ends_with(" L"));
+    for (k, row) in rows.take(8).enumerate() {
+        let words = row.split_whitespace().take(8);
+        let numbers: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
+        let at = |bit: usize| 0.5 + (((k >> bit) & 1) as f64 - 0.5) / 3.0_f64.sqrt();
+        // radial from the line along y through (−1, −1, 0), and circumferential
+        let (x, z) = (at(0) + 1.0, at(2));
+        let (a, b) = (x / x.hypot(z), z / x.hypot(z));
+        let wanted = [20.0 * b * b, 20.0 * a * a, 0.0, -20.0 * a * b, 0.0, 0.0];
+        assert_close(&numbers[2..], &wanted, 20.0);
+    }
+}
+
+#[test]
 fn a_pulled_cube_prints_its_closed_form() {
     let text = dat(PULLED);
     let heads: Vec<&str> = text
