@@ -1,7 +1,6 @@
 //! Materials: their constants, density, expansion, yield stresses.
 
 use super::forms::needs_data;
-use super::keywords::Keyword;
 use super::translation::Translation;
 use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity, Unstrained};
 use crate::diagnostic::{Place, Spanned, codes};
@@ -351,11 +350,6 @@ impl Translation<'_> {
         constants.push(("bulk", vec![bulk]));
         Some((law, constants))
     }
-}
-
-/// A keyword as it is written, with its blanks.
-fn spoken(keyword: &str) -> &str {
-    Keyword::of(keyword).map_or(keyword, |known| known.name)
 }
 
 fn case_of(of: Properties) -> Option<Material> {

@@ -9,7 +9,12 @@ use signorini_io::fs::RealFs;
 
 /// Reads and builds so many; of each hundred, one that can be built is solved.
 fn mutants(count: usize, seed: u64) {
-    let originals = [own("block.inp"), own("pair.inp"), of_others("prepomax.inp")];
+    let originals = [
+        own("block.inp"),
+        own("pair.inp"),
+        own("cards.inp"),
+        of_others("prepomax.inp"),
+    ];
     let originals = originals.map(|path| std::fs::read(path).unwrap());
     let name = own("mutant.inp").display().to_string();
     let all = Mutants {
@@ -20,7 +25,7 @@ fn mutants(count: usize, seed: u64) {
     let runs = all.try_all(
         |number, generator| mutate(&originals[number % originals.len()], generator),
         |number, mutant| {
-            let compat = [Compat::None, Compat::Ccx][number / 3 % 2];
+            let compat = [Compat::None, Compat::Ccx][number / 4 % 2];
             deck::read(&RealFs, &name, mutant, compat)
         },
     );
