@@ -202,6 +202,8 @@ fn submodel(low: f64, high: f64, from: &str) -> String {
     )
 }
 
+type Displacement = fn(Vec3) -> Vec3;
+
 fn quadratic(x: Vec3) -> Vec3 {
     Vec3::new(
         x.x * x.x - x.y * x.z,
@@ -229,7 +231,7 @@ fn values(loaded: &signorini::Loaded) -> Vec<(Vec3, Vec3)> {
 #[test]
 fn displacements_of_a_global_model_are_its_own_fields() {
     let folder = tempfile::tempdir().unwrap();
-    let fields: [(&str, fn(Vec3) -> Vec3); 4] = [
+    let fields: [(&str, Displacement); 4] = [
         ("hex8", linear),
         ("hex20", linear),
         ("hex20", quadratic),

@@ -123,7 +123,7 @@ impl Translation<'_> {
                         self.release(standing, &mut step, &card.place);
                     }
                     if card.has("SUBMODEL") {
-                        self.from_global(card, sudden, standing, &mut step);
+                        self.follow_global(card, sudden, standing, &mut step);
                         continue;
                     }
                     self.boundary(card, &mut lines);

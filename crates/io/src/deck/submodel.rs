@@ -53,7 +53,7 @@ impl Translation<'_> {
     }
 
     /// *BOUNDARY, SUBMODEL within a step.
-    pub fn from_global(
+    pub fn follow_global(
         &mut self,
         card: &Statement,
         sudden: bool,

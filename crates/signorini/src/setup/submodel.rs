@@ -20,6 +20,9 @@ use std::path::{Path, PathBuf};
 /// How far from the global model a node may lie, over the size of the face that is closest to it.
 const REACH: f64 = 0.01;
 
+/// Displacements of nodes.
+type Values = Vec<(NodeId, [f64; 3])>;
+
 /// Results of a global model at one time.
 struct Global {
     mesh: Mesh,
@@ -43,7 +46,7 @@ pub fn read_motions_of(
     }
     let mut found = Diagnostics::new();
     let mut files = BTreeSet::new();
-    let mut wanted: Vec<(usize, usize, Vec<(NodeId, [f64; 3])>)> = Vec::new();
+    let mut wanted: Vec<(usize, usize, Values)> = Vec::new();
     {
         let names = Names::new(case, mesh, &mut found);
         let mut known: HashMap<(PathBuf, GlobalTime), Option<Global>> = HashMap::new();
@@ -86,7 +89,7 @@ impl Global {
         mesh: &Mesh,
         nodes: &[NodeId],
         (on, from): (&Name, &GlobalModel),
-    ) -> Result<Vec<(NodeId, [f64; 3])>, Box<Diagnostic>> {
+    ) -> Result<Values, Box<Diagnostic>> {
         let all = self.mesh.cells(self.mesh.dim());
         let meant: BTreeSet<u64> = from.elements.iter().copied().collect();
         let is_meant = |cell: &CellId| {
