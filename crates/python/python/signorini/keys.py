@@ -167,6 +167,29 @@ class Checkpoint(Table):
     )
 
 
+class ConstraintLocal(Table):
+    """Axes that the directions of kinematic are along, at the place of each node: two vectors, or a cylindrical system.
+
+    TOML: `constraint.local`.
+    """
+
+    _toml = "constraint.local"
+    from_: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "A point of the axis of a cylindrical system: x is radial, y circumferential, z along the axis",
+        "list of number",
+        key="from",
+    )
+    to: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("Another one", "list of number")
+    x: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "A vector along the first axis, the same everywhere",
+        "list of number",
+    )
+    xy: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "A vector in the plane of the first and the second",
+        "list of number",
+    )
+
+
 class Constraint(Table):
     """Constraints between displacements, for the whole run.
 
@@ -189,6 +212,11 @@ class Constraint(Table):
     kind: Key[Literal["kinematic", "distributing", "plane", "line", "equal", "distance", "twist", "pretension", "cyclic"] | None, Literal["kinematic", "distributing", "plane", "line", "equal", "distance", "twist", "pretension", "cyclic"]] = Key(
         "Kinematic: nodes follow the reference; distributing: the reference follows their mean; plane, line: nodes stay in a plane, on a line; equal: nodes move alike; distance: two nodes keep theirs; twist: x of the reference is the angle (radian) by which nodes turn in the mean; pretension: faces are cut apart, x of the reference is by how much their sides overlap; cyclic: nodes move as those of the other side of a sector do",
         "`\"kinematic\"`, `\"distributing\"`, `\"plane\"`, `\"line\"`, `\"equal\"`, `\"distance\"`, `\"twist\"`, `\"pretension\"`, `\"cyclic\"`",
+    )
+    local: One[ConstraintLocal] = One(
+        ConstraintLocal,
+        "Axes that the directions of kinematic are along, at the place of each node: two vectors, or a cylindrical system",
+        "a table",
     )
     most: Key[float | None, float] = Key(
         "How far apart the two nodes of distance may go; absent: they keep their distance",
@@ -1162,7 +1190,7 @@ class Output(Table):
 
 
 class Reference(Table):
-    """Named points with translations and rotations of their own.
+    """Named points with translations and rotations of their own; without `at` and `node` in the mean of the nodes that move with it.
 
     TOML: `reference`.
     """
@@ -1938,7 +1966,7 @@ class CaseTable(Table):
     output: One[Output] = One(Output, "What is written", "a table")
     references: Named[Reference] = Named(
         Reference,
-        "Named points with translations and rotations of their own",
+        "Named points with translations and rotations of their own; without `at` and `node` in the mean of the nodes that move with it",
         "tables by name",
         key="reference",
     )
@@ -1983,6 +2011,7 @@ if TYPE_CHECKING:
         "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
         "dofs": Literal["all"] | Sequence[Literal["x", "y", "z", "rx", "ry", "rz"]],
         "equation": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
+        "local": ConstraintLocal | Mapping[str, Any],
         "most": float,
         "normal": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
         "point": Sequence[float] | NDArray[Any],

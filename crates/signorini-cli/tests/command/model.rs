@@ -56,13 +56,13 @@ fn what_a_contact_says_reaches_the_solver() {
 }
 
 #[test]
-fn sides_that_share_nodes_are_glued() {
-    let text = change(
-        BRICK,
-        "tip_node = { nodes = [11] }",
-        "tip_node = { nodes = [7, 11] }",
-    );
-    run_text(&text).says(4, &["S0303"]);
+fn a_node_that_both_sides_have_is_left_out_unless_there_is_no_other() {
+    let with = |nodes: &str| {
+        let found = format!("tip_node = {{ nodes = {nodes} }}");
+        run_text(&change(BRICK, "tip_node = { nodes = [11] }", &found))
+    };
+    with("[7]").says(4, &["S0303", "node 7"]);
+    with("[7, 11]").says(0, &["both sides have node 7, left out"]);
 }
 
 #[test]

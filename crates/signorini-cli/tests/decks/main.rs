@@ -6,6 +6,7 @@ mod axes;
 mod cards;
 #[path = "../../../signorini/tests/common/mod.rs"]
 mod common;
+mod crack;
 mod damaged;
 mod doors;
 mod large;

@@ -20,7 +20,7 @@ pub(super) const PROBLEMS: [Problem; 9] = [
     },
     Problem {
         name: "wooden-tube",
-        title: "A tube with other stiffnesses around and through its wall, under internal pressure",
+        title: "A tube of cylindrical orthotropy under internal pressure",
         source: "S. G. Lekhnitskii, Anisotropic Plates (1968), section 57",
         goal: "axes of the material at every integration point",
         mesh: "a quarter, 8 quad8 through the wall",

@@ -121,14 +121,14 @@ fn a_body_that_open_contact_holds() {
 }
 
 #[test]
-fn sides_that_share_nodes() {
-    // one node in the place of two
-    let text = change(&pressed(), "[101, 102, 107, 106]", "[15, 102, 107, 106]");
-    let glued = change(
-        &text,
-        "high_bottom = { nodes = [101,",
-        "high_bottom = { nodes = [15,",
-    );
+fn sides_that_share_all_nodes() {
+    // one node in the place of two, and no other on the secondary side
+    let glued = [
+        ("[101, 102, 107, 106]", "[15, 102, 107, 106]"),
+        ("[sets]\n", "[sets]\nglued = { nodes = [15] }\n"),
+        ("secondary = \"high_foot\"", "secondary = \"glued\""),
+    ];
+    let glued = (glued.iter()).fold(pressed(), |text, (from, to)| change(&text, from, to));
     Trial {
         text: glued,
         code: 4,
