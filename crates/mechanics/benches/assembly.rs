@@ -94,7 +94,7 @@ fn tangent(c: &mut Criterion, name: &str, method: Option<Method>) {
         term.prepare(&trial, Order::Tangent).unwrap();
     }
     let mut assembler = Assembler::new(&system.layout, &system.elimination, &system.terms);
-    assembler.begin_step();
+    assembler.begin_step(&system.layout, &system.elimination, &system.terms);
     let mut out = Assembly::default();
     c.bench_function(name, |b| {
         b.iter(|| {
