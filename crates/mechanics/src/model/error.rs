@@ -1,6 +1,6 @@
 use super::Unheld;
 use crate::load::LoadError;
-use crate::model::activity::ActivityError;
+use crate::model::activity_error::ActivityError;
 use crate::model::constraint_error::ConstraintError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};

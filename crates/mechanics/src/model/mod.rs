@@ -20,6 +20,7 @@
 //! ramped together turn about a fixed axis, by as many turns as one likes.
 
 mod activity;
+mod activity_error;
 mod bodies;
 mod constraint_error;
 mod constraints;
@@ -37,15 +38,15 @@ mod substance;
 mod summary;
 
 pub use crate::load::LoadError;
-pub use activity::{ActivityError, ActivityPart};
+pub use activity_error::ActivityError;
 pub use constraint_error::ConstraintError;
 pub use error::ModelError;
 pub use held::Unheld;
 pub use parts::{
-    AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
-    ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart, Interference, LoadPart,
-    Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
-    StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
+    ActivityPart, AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind,
+    ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart,
+    Interference, LoadPart, Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart,
+    SidePart, SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 pub use summary::{
     BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
@@ -174,10 +175,7 @@ impl Model {
             rubs: &rubs,
         };
         let reference: Arc<[Vec3]> = contact::closed(&source, contacts, &poses)?.into();
-        let source = Source {
-            reference: &reference,
-            ..source
-        };
+        let source = source.with_reference(&reference);
         let sides = all_sides(&source, &joint, &mut layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
         let (modulus, shear_modulus) = moduli(bodies);

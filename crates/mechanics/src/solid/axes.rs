@@ -142,11 +142,6 @@ impl Frames {
     }
 }
 
-/// The axes at a point among those of its cell.
-pub(super) fn at_point(of_cell: &[Mat3], point: usize) -> Option<&Mat3> {
-    of_cell.get(point).or_else(|| of_cell.first())
-}
-
 /// An element with a point on the axis around which its material lies.
 pub(super) fn on_axis(body: &str, label: u64) -> SolidError {
     SolidError::OnAxis {

@@ -1,9 +1,9 @@
 //! What a solid can do beyond forces: initial stiffness, elements, storage, samples.
 
 use super::at::At;
-use super::axes::at_point;
 use super::cells::{CHUNK, Cells};
 use super::kernel::Sample;
+use super::kernel::at_point;
 use super::term::{Scratch, Solid, Wanted};
 use crate::material::Strain;
 use crate::system::{

@@ -1,10 +1,10 @@
 //! Cells of one element: nodes, treatment and initial state.
 
-use super::activation::Part;
 use super::axes::{Frames, MaterialAxes, on_axis};
 use super::choice::Situation;
 use super::error::SolidError;
 use super::kernel::{BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel};
+use super::plan::Part;
 use super::{AtNodes, Locking, report};
 use crate::material::{Kinematics, Material};
 use crate::system::Idealisation;

@@ -93,6 +93,7 @@ mod choice;
 mod dense;
 mod error;
 mod kernel;
+mod plan;
 mod report;
 mod term;
 #[cfg(test)]

@@ -1,10 +1,10 @@
-use super::activation::{Plan, is_linear};
 use super::at::At;
 use super::axes::MaterialAxes;
 use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
 use super::error::SolidError;
 use super::kernel::{Batch, BatchKernel, Element, Failure, Output, Results, Sample, width};
+use super::plan::{Plan, is_linear};
 use super::{AtNodes, Integration, Locking, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced};
 use crate::system::{

@@ -10,8 +10,8 @@
 //!
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
-use super::activation::{Part, Plan, inverted, is_linear};
 use super::at::At;
+use super::plan::{Part, Plan, inverted, is_linear};
 use super::{SolidError, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{

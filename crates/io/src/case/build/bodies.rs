@@ -493,50 +493,8 @@ impl Builder<'_> {
                 place,
             };
         }
+        self.keys_of_constraint(fields, &kind, &place);
         let on = fields.text("on");
-        let mut needs = |key: &str, wanted: bool| {
-            if fields.has(key) == wanted || kind.is_empty() {
-                return;
-            }
-            let (code, message, remark) = if wanted {
-                let message = format!("a {} constraint has no `{key}`", kind.value);
-                (&codes::MISSING, message, "missing here")
-            } else {
-                let message = format!("`{key}` means nothing in a {} constraint", kind.value);
-                (&codes::CONTRADICTION, message, "delete it")
-            };
-            let at = if wanted {
-                place.clone()
-            } else {
-                fields.place(key)
-            };
-            self.error(code, message, &at, remark);
-        };
-        // what a kind must have, and what it may
-        let (must, may): (&[&str], &[&str]) = match kind.value.as_str() {
-            "kinematic" => (&["reference"], &["dofs", "local"]),
-            "distributing" => (&["reference"], &[]),
-            "twist" => (&["reference"], &["axis"]),
-            "pretension" => (&["reference"], &["normal"]),
-            "cyclic" => (&["with", "sectors"], &["axis", "point"]),
-            "equal" => (&["dofs"], &[]),
-            "distance" => (&[], &["most"]),
-            _ => (&[], &[]),
-        };
-        const KEYS: [&str; 9] = [
-            "reference",
-            "dofs",
-            "local",
-            "most",
-            "normal",
-            "with",
-            "sectors",
-            "point",
-            "axis",
-        ];
-        for key in KEYS.iter().filter(|key| !may.contains(key)) {
-            needs(key, must.contains(key));
-        }
         let axes = if fields.has("dofs") {
             self.axes(fields)
         } else {
@@ -584,6 +542,53 @@ impl Builder<'_> {
             _ => ConstraintKind::Equal { on, axes },
         };
         Constraint { kind, place }
+    }
+
+    /// Refuses keys that a kind of constraint lacks, and those that mean nothing in it.
+    fn keys_of_constraint(&mut self, fields: Fields<'_>, kind: &Name, place: &Place) {
+        let mut needs = |key: &str, wanted: bool| {
+            if fields.has(key) == wanted || kind.is_empty() {
+                return;
+            }
+            let (code, message, remark) = if wanted {
+                let message = format!("a {} constraint has no `{key}`", kind.value);
+                (&codes::MISSING, message, "missing here")
+            } else {
+                let message = format!("`{key}` means nothing in a {} constraint", kind.value);
+                (&codes::CONTRADICTION, message, "delete it")
+            };
+            let at = if wanted {
+                place.clone()
+            } else {
+                fields.place(key)
+            };
+            self.error(code, message, &at, remark);
+        };
+        // what a kind must have, and what it may
+        let (must, may): (&[&str], &[&str]) = match kind.value.as_str() {
+            "kinematic" => (&["reference"], &["dofs", "local"]),
+            "distributing" => (&["reference"], &[]),
+            "twist" => (&["reference"], &["axis"]),
+            "pretension" => (&["reference"], &["normal"]),
+            "cyclic" => (&["with", "sectors"], &["axis", "point"]),
+            "equal" => (&["dofs"], &[]),
+            "distance" => (&[], &["most"]),
+            _ => (&[], &[]),
+        };
+        const KEYS: [&str; 9] = [
+            "reference",
+            "dofs",
+            "local",
+            "most",
+            "normal",
+            "with",
+            "sectors",
+            "point",
+            "axis",
+        ];
+        for key in KEYS.iter().filter(|key| !may.contains(key)) {
+            needs(key, must.contains(key));
+        }
     }
 
     /// The axis that something turns about: z, unless another is given in space.

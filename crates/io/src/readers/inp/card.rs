@@ -2,6 +2,8 @@
 
 use super::lines::{Lines, Spot};
 use super::parameters::spelled;
+pub(super) use super::spelling::key;
+use super::spelling::title;
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
 use std::cell::Cell;
@@ -112,24 +114,6 @@ pub(super) fn included(line: &[u8]) -> Option<(String, bool)> {
         "NODE" | "ELEMENT" | "NSET" | "ELSET" | "SURFACE" => Some((path, true)),
         _ => None,
     }
-}
-
-/// A keyword in capitals, with one blank between its words.
-fn title(name: &str) -> String {
-    let words: Vec<String> = name.split_whitespace().map(str::to_uppercase).collect();
-    words.join(" ")
-}
-
-/// What names are compared by: in capitals, without blanks, as CalculiX reads them.
-pub(super) fn key(name: &str) -> String {
-    let upper = name.chars().filter(|c| !c.is_whitespace());
-    upper.flat_map(char::to_uppercase).collect()
-}
-
-/// What names are compared by: in capitals, without blanks and quotes.
-#[must_use]
-pub fn compared(name: &str) -> String {
-    key(name.trim_matches('"'))
 }
 
 /// Bytes as text, UTF-8 or else Latin-1.

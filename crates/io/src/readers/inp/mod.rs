@@ -33,14 +33,15 @@ mod directory;
 mod kind;
 mod lines;
 mod parameters;
+mod spelling;
 mod statement;
 #[cfg(test)]
 mod tests;
 
-pub use card::compared;
 pub use directory::{Directory, ElementCard, Kind, Special};
 pub(crate) use kind::without_volume;
 pub(crate) use parameters::{judge, not_read, spelled};
+pub use spelling::compared;
 pub use statement::{Field, Statement};
 
 use super::{MeshError, Place};

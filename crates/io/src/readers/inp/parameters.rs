@@ -8,7 +8,7 @@
 //!
 //! To add a parameter: one entry in [`CARDS`].
 
-use super::card::compared;
+use super::spelling::compared;
 use crate::diagnostic::{Code, closest, codes};
 
 /// What a parameter takes.

@@ -1,8 +1,8 @@
 //! Cards that say something else than the mesh: kept with their data, and with the places of both.
 
-use super::card::compared;
 use super::card::{Card, Fields, Parameter, real, text, whole};
 use super::lines::{Lines, Spot};
+use super::spelling::compared;
 use crate::diagnostic::{Place, SourceFile};
 use std::cell::Cell;
 use std::ops::Range;

@@ -4,13 +4,12 @@ mod contact;
 
 pub use contact::*;
 
-use super::ActivityPart;
 use crate::connector::SpringLaw;
 use crate::load::{Acting, Course};
 use crate::material::Material;
 use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes};
 use crate::solve::{Increments, Motion};
-use crate::system::Idealisation;
+use crate::system::{CellChange, Idealisation};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
@@ -315,6 +314,15 @@ pub struct LoadPart {
     pub load: Acting,
     /// The factor over time: from what the load of this name was before to full size by default.
     pub course: Course,
+}
+
+/// Cells that take part again, or no longer, from the beginning of a step on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActivityPart {
+    /// The cells.
+    pub cells: Vec<CellId>,
+    /// What becomes of them.
+    pub change: CellChange,
 }
 
 /// A step: what it changes.

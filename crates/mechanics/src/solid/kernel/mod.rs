@@ -22,7 +22,6 @@ pub(super) use batch::{Batch, BatchKernel, Results};
 pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 pub(super) use lanes::width;
 
-use super::axes::at_point;
 use super::dense;
 use crate::material::{Kinematics, MaterialError, Order, Response, Strain};
 use crate::system::Idealisation;
@@ -253,4 +252,9 @@ impl Element<'_> {
             volume_at_start: weight,
         }
     }
+}
+
+/// The axes at a point among those of its cell.
+pub(super) fn at_point(of_cell: &[Mat3], point: usize) -> Option<&Mat3> {
+    of_cell.get(point).or_else(|| of_cell.first())
 }

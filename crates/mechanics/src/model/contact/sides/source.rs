@@ -24,3 +24,10 @@ pub(in crate::model) struct Source<'a> {
     /// Of each contact, whether it has friction in any step.
     pub rubs: &'a [bool],
 }
+
+impl<'a> Source<'a> {
+    /// The same with other positions at the start.
+    pub fn with_reference(self, reference: &'a [Vec3]) -> Self {
+        Self { reference, ..self }
+    }
+}
