@@ -384,13 +384,18 @@ impl Solid {
         for lane in 0..width {
             let cell = cell_of(lane);
             for (k, &node) in block.nodes_of(cell).iter().enumerate() {
-                let x = self.place(block, cell, k).to_array();
+                let x = self.reference[node as usize].to_array();
                 for (axis, x) in x.into_iter().enumerate().take(self.layout.ndim()) {
                     let place = (k * self.layout.ndim() + axis) * width + lane;
                     lanes.x[place] = x;
-                    let origin = self.origin(block, cell, k, axis);
-                    lanes.u[place] = self.moved(at, self.layout.node(node, axis), origin);
+                    lanes.u[place] = at.displacement(self.layout.node(node, axis));
                 }
+            }
+            let origin = self.origin(block, cell);
+            if !origin.is_empty() {
+                let (u, x) = (lanes.u.iter_mut(), lanes.x.iter_mut());
+                self.count_from(origin, at, u.skip(lane).step_by(width));
+                self.begin_at(origin, x.skip(lane).step_by(width));
             }
             self.heat(block, cell, at, temperature, temperature_at_start);
         }
@@ -448,44 +453,38 @@ impl Solid {
     pub(super) fn locate(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
         scratch.u.clear();
         scratch.dofs.clear();
-        for (k, &node) in block.nodes_of(cell).iter().enumerate() {
+        for &node in block.nodes_of(cell) {
             for axis in 0..self.layout.ndim() {
                 let dof = self.layout.node(node, axis);
                 scratch.dofs.push(dof);
-                let origin = self.origin(block, cell, k, axis);
-                scratch.u.push(self.moved(at, dof, origin));
+                scratch.u.push(at.displacement(dof));
+            }
+        }
+        self.count_from(self.origin(block, cell), at, scratch.u.iter_mut());
+    }
+
+    /// u_0 at the unknowns of a cell; nothing where it is zero.
+    fn origin<'b>(&self, block: &'b Cells, cell: usize) -> &'b [f64] {
+        block.part.origin(cell, block.nnode * self.layout.ndim())
+    }
+
+    /// Makes displacements those that kernels see: those since u_0, (E18) and (E20), or the whole ones where a strain is
+    /// taken off, (E19).
+    fn count_from<'u>(&self, origin: &[f64], at: At<'_>, u: impl Iterator<Item = &'u mut f64>) {
+        for (u, origin) in u.zip(origin) {
+            match (at, self.subtracts) {
+                (At::Trial(_), false) => *u -= origin,
+                (At::Start, true) => *u = *origin,
+                (At::Trial(_), true) | (At::Start, false) => {}
             }
         }
     }
 
-    /// u_0 of the k-th node of a cell along an axis.
-    fn origin(&self, block: &Cells, cell: usize, k: usize, axis: usize) -> f64 {
-        let ndim = self.layout.ndim();
-        let of_cell = block.part.origin(cell, block.nnode * ndim);
-        of_cell.get(k * ndim + axis).copied().unwrap_or_default()
-    }
-
-    /// The displacement that kernels see at an unknown with the displacement `origin` at u_0: that since then, (E18) and
-    /// (E20), or the whole one where a strain is taken off, (E19).
-    fn moved(&self, at: At<'_>, dof: Dof, origin: f64) -> f64 {
-        match (at, self.subtracts) {
-            (At::Trial(_), true) => at.displacement(dof),
-            (At::Trial(_), false) => at.displacement(dof) - origin,
-            (At::Start, true) => origin,
-            (At::Start, false) => 0.0,
+    /// Makes coordinates X those at which kernels see the start: X + u_0 in (E20).
+    fn begin_at<'x>(&self, origin: &[f64], x: impl Iterator<Item = &'x mut f64>) {
+        if self.kinematics == Kinematics::Finite && !self.subtracts {
+            x.zip(origin).for_each(|(x, origin)| *x += origin);
         }
-    }
-
-    /// Where kernels see the k-th node of a cell at the start: X, or X + u_0 in (E20).
-    fn place(&self, block: &Cells, cell: usize, k: usize) -> Vec3 {
-        let node = block.nodes_of(cell)[k];
-        let mut place = self.reference[node as usize];
-        if self.kinematics == Kinematics::Finite && !block.part.is_natural() && !self.subtracts {
-            for axis in 0..self.layout.ndim() {
-                place[axis] += self.origin(block, cell, k, axis);
-            }
-        }
-        place
     }
 
     /// Adds the temperatures of the nodes of a cell, where there are any: those at present, and those that expansion counts
@@ -543,8 +542,18 @@ impl Solid {
     ) -> Result<f64, TermError> {
         self.locate(block, cell, at, scratch);
         scratch.x.clear();
-        let places = (0..block.nnode).map(|k| self.place(block, cell, k));
+        let nodes = block.nodes_of(cell).iter();
+        let places = nodes.map(|&node| self.reference[node as usize]);
         scratch.x.extend(places);
+        let origin = self.origin(block, cell);
+        if !origin.is_empty() {
+            let ndim = self.layout.ndim();
+            let axes = scratch.x.iter_mut().flat_map(|at| {
+                let Vec3 { x, y, z } = at;
+                [x, y, z].into_iter().take(ndim)
+            });
+            self.begin_at(origin, axes);
+        }
         scratch.temperature.clear();
         scratch.temperature_at_start.clear();
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
