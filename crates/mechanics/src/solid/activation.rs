@@ -17,12 +17,11 @@
 use super::at::At;
 use super::cells::Cells;
 use super::kernel::Initial;
-use super::plan::{Plan, inverted};
+use super::plan::{Forces, Plan, gather, inverted};
 use super::term::{Scratch, Solid, Wanted};
 use crate::system::{Activity, Archive, ArchiveError, CellChange, Idealisation, State, TermError};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Sym3;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl Solid {
@@ -77,8 +76,8 @@ impl Solid {
         step: usize,
         activity: &Activity,
         from: &State,
-    ) -> Result<BTreeMap<NodeId, [f64; 3]>, TermError> {
-        let mut forces: BTreeMap<NodeId, [f64; 3]> = BTreeMap::new();
+    ) -> Result<Forces, TermError> {
+        let mut forces = Forces::new();
         if step == 0 {
             return Ok(forces);
         }
@@ -90,11 +89,8 @@ impl Solid {
                     continue;
                 }
                 self.cell(block, cell, At::Trial(from), Wanted::Forces, &mut scratch)?;
-                let of_nodes = scratch.force.chunks_exact(self.layout.ndim());
-                for (&node, force) in block.nodes_of(cell).iter().zip(of_nodes) {
-                    let to = forces.entry(node).or_default();
-                    to.iter_mut().zip(force).for_each(|(to, f)| *to += f);
-                }
+                let nodes = block.nodes_of(cell);
+                gather(&mut forces, nodes, &scratch.force, self.layout.ndim());
             }
         }
         Ok(forces)
@@ -127,10 +123,7 @@ impl Solid {
             scratch.size(block, self.layout.ndim(), Wanted::Samples);
             let mut of_block = block.given.clone();
             for (cell, &id) in block.ids.iter().enumerate() {
-                let is_new = matches!(
-                    plan.activity.change(id, step),
-                    Some(CellChange::Added { .. })
-                );
+                let is_new = plan.activity.adds(id, step);
                 let subtracts = self.subtracts && block.part.since(cell).is_some();
                 if !block.part.is_active(cell) || !(is_new || subtracts) {
                     continue;

@@ -97,6 +97,17 @@ impl Part {
     }
 }
 
+/// Forces on nodes.
+pub(super) type Forces = BTreeMap<NodeId, [f64; 3]>;
+
+/// Adds the forces of a cell at its nodes, of `ndim` components each.
+pub(super) fn gather(forces: &mut Forces, nodes: &[NodeId], of_cell: &[f64], ndim: usize) {
+    for (&node, force) in nodes.iter().zip(of_cell.chunks_exact(ndim)) {
+        let to = forces.entry(node).or_default();
+        to.iter_mut().zip(force).for_each(|(to, f)| *to += f);
+    }
+}
+
 /// The plan of a body, and how far it has been followed.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
@@ -142,7 +153,7 @@ impl Plan {
     }
 
     /// Forces fall to zero from now on: those of whole nodes.
-    pub fn fade(&mut self, layout: &Layout, forces: &BTreeMap<NodeId, [f64; 3]>) {
+    pub fn fade(&mut self, layout: &Layout, forces: &Forces) {
         for (&node, force) in forces {
             let of_node = (0..layout.ndim()).map(|axis| layout.node(node, axis));
             self.fading
@@ -155,7 +166,7 @@ impl Plan {
         (1.0 - (time - step.start) / step.duration).clamp(0.0, 1.0)
     }
 
-    /// Adds what is left of the forces, node by node.
+    /// Adds the remaining forces, node by node.
     pub fn exert(&self, layout: &Layout, step: &StepContext, time: f64, out: &mut dyn Sink) {
         let left = Self::left(step, time);
         if left == 0.0 {

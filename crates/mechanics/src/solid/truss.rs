@@ -11,7 +11,7 @@
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
 use super::at::At;
-use super::plan::{Part, Plan, inverted, is_linear};
+use super::plan::{Forces, Part, Plan, gather, inverted, is_linear};
 use super::{SolidError, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
@@ -23,7 +23,6 @@ use crate::system::{
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Bars evaluated together.
@@ -496,7 +495,7 @@ impl Truss {
             return Ok(());
         }
         let activity = plan.activity.clone();
-        let mut forces: BTreeMap<NodeId, [f64; 3]> = BTreeMap::new();
+        let mut forces = Forces::new();
         let ndim = self.layout.ndim();
         for number in 0..self.bars.len() {
             let id = self.bars[number].id;
@@ -504,11 +503,7 @@ impl Truss {
                 Some(CellChange::Removed { ramp: true }) if step > 0 => {
                     let order = MaterialOrder::Stress;
                     let local = self.local(number, At::Trial(from), order, &mut Vec::new())?;
-                    let of_nodes = local.force.chunks_exact(ndim);
-                    for (&node, force) in self.bars[number].nodes.iter().zip(of_nodes) {
-                        let to = forces.entry(node).or_default();
-                        to.iter_mut().zip(force).for_each(|(to, f)| *to += f);
-                    }
+                    gather(&mut forces, &self.bars[number].nodes, &local.force, ndim);
                 }
                 Some(CellChange::Added { strain_free: true }) => {
                     let mut u = vec![0.0; self.width()];
@@ -540,18 +535,13 @@ impl Truss {
         let Some(plan) = &self.plan else {
             return Ok(());
         };
-        let is_added = |id: CellId| {
-            matches!(
-                plan.activity.change(id, step),
-                Some(CellChange::Added { .. })
-            )
-        };
         let has_length = |number: usize, bar: &Bar| {
             let npoint = bar.element.full_rule().npoint();
             (0..npoint).all(|p| self.tangent(bar, Some(number), p).is_some())
         };
         let bars = self.bars.iter().enumerate();
-        let lost = bars.filter(|(number, bar)| is_added(bar.id) && !has_length(*number, bar));
+        let lost = bars
+            .filter(|(number, bar)| plan.activity.adds(bar.id, step) && !has_length(*number, bar));
         let labels: Vec<u64> = lost.map(|(_, bar)| bar.label).collect();
         match labels.is_empty() {
             true => Ok(()),

@@ -113,6 +113,12 @@ impl Activity {
         of_cell.get(at).map(|(_, change)| *change)
     }
 
+    /// Whether a cell is added when a step begins.
+    #[must_use]
+    pub fn adds(&self, cell: CellId, step: usize) -> bool {
+        matches!(self.change(cell, step), Some(CellChange::Added { .. }))
+    }
+
     /// Whether a cell takes part in a step.
     #[must_use]
     pub fn is_active(&self, cell: CellId, step: usize) -> bool {
