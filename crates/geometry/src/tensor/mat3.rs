@@ -159,6 +159,32 @@ impl Mul for Mat3 {
     }
 }
 
+/// What turns axes about one of themselves, from 0, counter-clockwise as seen from its tip, by degrees: to multiply them
+/// with from the left. Quarter turns are exact.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::tensor::{Mat3, Vec3, turn_about};
+///
+/// let axes = turn_about(2, 90.0) * Mat3::IDENTITY;
+/// assert_eq!(axes.rows, [Vec3::unit(1), -Vec3::unit(0), Vec3::unit(2)]);
+/// ```
+#[must_use]
+pub fn turn_about(axis: usize, angle: f64) -> Mat3 {
+    let (sin, cos) = match (angle / 90.0).rem_euclid(4.0) {
+        0.0 => (0.0, 1.0),
+        1.0 => (1.0, 0.0),
+        2.0 => (0.0, -1.0),
+        3.0 => (-1.0, 0.0),
+        _ => angle.to_radians().sin_cos(),
+    };
+    let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut turn = Mat3::IDENTITY;
+    turn.rows[first] = Vec3::unit(first) * cos + Vec3::unit(second) * sin;
+    turn.rows[second] = Vec3::unit(second) * cos - Vec3::unit(first) * sin;
+    turn
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

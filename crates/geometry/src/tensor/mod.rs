@@ -6,6 +6,6 @@ mod mat3;
 mod sym3;
 mod vec3;
 
-pub use mat3::Mat3;
+pub use mat3::{Mat3, turn_about};
 pub use sym3::Sym3;
 pub use vec3::Vec3;

@@ -258,26 +258,15 @@ impl Translation<'_> {
             self.error(&codes::UNDEFINED, text, &card.place, "");
             return None;
         };
-        let cylindrical = of.get("SYSTEM").map(compared);
-        let cylindrical = cylindrical.is_some_and(|system| system.starts_with('C'));
         let mut rows = of.rows();
-        let row = rows.next().unwrap_or_default();
-        let [a, b, c, d, e, f] = self.reals(&row);
+        let numbers = rows.next().unwrap_or_default();
+        let system = self.system(of, &numbers);
         if rows.next().is_some_and(|row| !row.is_empty()) {
             let text = "*COUPLING with an *ORIENTATION that is turned is not supported";
             let remark = "write the axes as they are after the turn";
             self.error(&codes::NOT_BUILT, text, &card.place, remark);
         }
-        Some(match cylindrical {
-            true => AxesSystem::Cylindrical {
-                from: [a, b, c],
-                to: [d, e, f],
-            },
-            false => AxesSystem::Rectangular {
-                x: [a, b, c],
-                xy: [d, e, f],
-            },
-        })
+        Some(system)
     }
 
     /// The directions of *KINEMATIC: all, or those of its lines.

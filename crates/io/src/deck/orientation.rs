@@ -6,7 +6,7 @@ use crate::case::{
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Mat3, Vec3, turn_about};
 use std::collections::BTreeMap;
 
 /// Axes of materials by their names; nothing for those that have been reported.
@@ -63,7 +63,8 @@ impl Translation<'_> {
             place: place.clone(),
         };
         let first = numbers.first();
-        if let Some(field) = first.filter(|field| is_name(field.text)) {
+        let is_name = |field: &&Field<'_>| !field.text.is_empty() && field.real().is_none();
+        if let Some(field) = first.filter(is_name) {
             let Some(found) = distributions.get(&compared(field.text)) else {
                 let text = format!("there is no *DISTRIBUTION `{}`", field.text);
                 self.error(&codes::UNDEFINED, text, &field.place(), "");
@@ -82,8 +83,37 @@ impl Translation<'_> {
             let one = named(found.clone());
             return Some(self.name_axes(one));
         }
-        let [a, b, c, d, e, f] = self.reals(&numbers);
-        let system = match cylindrical {
+        let system = self.system(card, &numbers);
+        let Some(axes) = system.at(Vec3::ZERO) else {
+            let text = "the two points of *ORIENTATION give no axes";
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+            return None;
+        };
+        match system {
+            AxesSystem::Cylindrical { from, to } => {
+                let along = Vec3::from(to) - Vec3::from(from);
+                let one = named(MaterialSystem::Cylindrical {
+                    origin: from,
+                    axis: along.to_array(),
+                });
+                Some(self.name_axes(one))
+            }
+            AxesSystem::Rectangular { x, xy } => Some(BodyAxes::Here(match turn {
+                Some((axis, angle)) => turned(axes, axis, angle, place.clone()),
+                None => Orientation {
+                    x,
+                    y: xy,
+                    place: place.clone(),
+                },
+            })),
+        }
+    }
+
+    /// The axes of an *ORIENTATION before they turn, by its first line.
+    pub(super) fn system(&mut self, card: &Statement, numbers: &[Field<'_>]) -> AxesSystem {
+        let system = card.get("SYSTEM").map(compared).unwrap_or_default();
+        let [a, b, c, d, e, f] = self.reals(numbers);
+        match system.starts_with('C') {
             true => AxesSystem::Cylindrical {
                 from: [a, b, c],
                 to: [d, e, f],
@@ -92,27 +122,7 @@ impl Translation<'_> {
                 x: [a, b, c],
                 xy: [d, e, f],
             },
-        };
-        let Some(axes) = system.at(Vec3::ZERO) else {
-            let text = "the two points of *ORIENTATION give no axes";
-            self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
-            return None;
-        };
-        if cylindrical {
-            let one = named(MaterialSystem::Cylindrical {
-                origin: [a, b, c],
-                axis: [d - a, e - b, f - c],
-            });
-            return Some(self.name_axes(one));
         }
-        Some(BodyAxes::Here(match turn {
-            Some((axis, angle)) => turned(axes, axis, angle, place.clone()),
-            None => Orientation {
-                x: [a, b, c],
-                y: [d, e, f],
-                place: place.clone(),
-            },
-        }))
     }
 
     fn name_axes(&mut self, one: NamedOrientation) -> BodyAxes {
@@ -179,26 +189,9 @@ impl Translation<'_> {
     }
 }
 
-/// Whether a field is a name and no number.
-fn is_name(text: &str) -> bool {
-    let number = text.replace(['d', 'D'], "e");
-    !text.is_empty() && number.parse::<f64>().is_err()
-}
-
 /// Local axes that turn about one of themselves, counter-clockwise as seen from its tip; degrees.
 fn turned(axes: [Vec3; 3], axis: usize, angle: f64, place: Place) -> Orientation {
-    let about = axes.get(axis).copied().unwrap_or_default();
-    // quarter turns are exact
-    let quarters = (angle / 90.0).rem_euclid(4.0);
-    let (sin, cos) = match quarters {
-        0.0 => (0.0, 1.0),
-        1.0 => (1.0, 0.0),
-        2.0 => (0.0, -1.0),
-        3.0 => (-1.0, 0.0),
-        _ => angle.to_radians().sin_cos(),
-    };
-    let turn = |v: Vec3| v * cos + about.cross(v) * sin + about * (about.dot(v) * (1.0 - cos));
-    let [x, y, _] = axes.map(turn);
+    let [x, y, _] = (turn_about(axis, angle) * Mat3::from_rows(axes)).rows;
     Orientation {
         x: x.to_array(),
         y: y.to_array(),

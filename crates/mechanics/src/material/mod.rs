@@ -24,6 +24,7 @@ mod by_temperature;
 mod ciarlet;
 mod constants;
 mod definition;
+pub(crate) mod dense;
 mod expanding;
 mod frame;
 mod hardening;

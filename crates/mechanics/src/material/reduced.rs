@@ -1,5 +1,6 @@
 #![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
 
+use super::dense;
 use super::{Kinematics, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
@@ -184,38 +185,20 @@ impl Reduced {
         tangent: &[[f64; 6]; 6],
         columns: &mut [Vector],
     ) -> Result<(), MaterialError> {
-        let n = self.free.len();
-        let mut a = [[0.0; MOST]; MOST];
-        for (row, &p) in a.iter_mut().zip(self.free) {
-            for (to, &q) in row.iter_mut().zip(self.free) {
-                *to = tangent[p][q];
+        let (n, m) = (self.free.len(), columns.len());
+        let mut a = [0.0; MOST * MOST];
+        let mut right = [0.0; MOST * 6];
+        for (i, &p) in self.free.iter().enumerate() {
+            for (j, &q) in self.free.iter().enumerate() {
+                a[i * n + j] = tangent[p][q];
+            }
+            for (k, column) in columns.iter().enumerate() {
+                right[i * m + k] = column[i];
             }
         }
-        let size = a.iter().map(|row| largest(row)).fold(0.0, f64::max);
-        for k in 0..n {
-            let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()));
-            let pivot = pivot.unwrap_or(k);
-            a.swap(k, pivot);
-            columns.iter_mut().for_each(|column| column.swap(k, pivot));
-            let above = a[k];
-            if above[k].abs().total_cmp(&(f64::EPSILON * size)).is_le() {
-                return Err(NOT_CONVERGED);
-            }
-            for i in (k + 1)..n {
-                let factor = a[i][k] / above[k];
-                for (to, above) in a[i].iter_mut().zip(above) {
-                    *to -= factor * above;
-                }
-                for column in columns.iter_mut() {
-                    column[i] -= factor * column[k];
-                }
-            }
-        }
-        for column in columns {
-            for i in (0..n).rev() {
-                let known: f64 = (i + 1..n).map(|j| a[i][j] * column[j]).sum();
-                column[i] = (column[i] - known) / a[i][i];
-            }
+        dense::solve(&mut a[..n * n], n, &mut right[..n * m], m).ok_or(NOT_CONVERGED)?;
+        for (k, column) in columns.iter_mut().enumerate() {
+            (0..n).for_each(|i| column[i] = right[i * m + k]);
         }
         Ok(())
     }

@@ -42,7 +42,7 @@ impl Cylindrical {
             })
     }
 
-    /// Turned at every point by [`turn_about`].
+    /// Turned at every point by [`turn_about`](signorini_geometry::tensor::turn_about).
     #[must_use]
     pub fn turned(self, turn: Mat3) -> Self {
         Self { turn, ..self }
@@ -73,33 +73,6 @@ impl Cylindrical {
         let plain = Mat3::from_rows([radial, self.along.cross(radial), self.along]);
         Some(self.turn * plain)
     }
-}
-
-/// What turns axes about one of themselves, from 0, counter-clockwise as seen from its tip, by degrees: to multiply them
-/// with from the left. Quarter turns are exact.
-///
-/// # Example
-/// ```
-/// use signorini_geometry::tensor::{Mat3, Vec3};
-/// use signorini_mechanics::solid::turn_about;
-///
-/// let axes = turn_about(2, 90.0) * Mat3::IDENTITY;
-/// assert_eq!(axes.rows, [Vec3::unit(1), -Vec3::unit(0), Vec3::unit(2)]);
-/// ```
-#[must_use]
-pub fn turn_about(axis: usize, angle: f64) -> Mat3 {
-    let (sin, cos) = match (angle / 90.0).rem_euclid(4.0) {
-        0.0 => (0.0, 1.0),
-        1.0 => (1.0, 0.0),
-        2.0 => (0.0, -1.0),
-        3.0 => (-1.0, 0.0),
-        _ => angle.to_radians().sin_cos(),
-    };
-    let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut turn = Mat3::IDENTITY;
-    turn.rows[first] = Vec3::unit(first) * cos + Vec3::unit(second) * sin;
-    turn.rows[second] = Vec3::unit(second) * cos - Vec3::unit(first) * sin;
-    turn
 }
 
 /// The axes in the cells of one element.

@@ -90,7 +90,6 @@ mod axes;
 mod capabilities;
 mod cells;
 mod choice;
-mod dense;
 mod error;
 mod kernel;
 mod plan;
@@ -100,7 +99,7 @@ mod term;
 mod tests;
 mod truss;
 
-pub use axes::{Cylindrical, MaterialAxes, turn_about};
+pub use axes::{Cylindrical, MaterialAxes};
 pub use cells::AtStart;
 pub use choice::{Integration, Locking};
 pub use error::SolidError;

@@ -1,7 +1,7 @@
 //! From quadrature points to cells and nodes.
 
-use super::dense;
 use super::kernel::Sample;
+use crate::material::dense;
 use crate::system::Frame;
 use signorini_geometry::element;
 use signorini_geometry::element::quadrature::Rule;

@@ -2,12 +2,12 @@
 
 use super::names::Names;
 use signorini_geometry::mesh::CellId;
-use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_geometry::tensor::{Mat3, Vec3, turn_about};
 use signorini_io::case::{AxesSystem, Body, BodyAxes, Case, MaterialSystem};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{Material, Oriented};
 use signorini_mechanics::model::{BodyKind, BodyPart};
-use signorini_mechanics::solid::{Cylindrical, MaterialAxes, turn_about};
+use signorini_mechanics::solid::{Cylindrical, MaterialAxes};
 use std::collections::{HashMap, HashSet};
 
 /// The law of a body, which takes the axes of points where the body has some.

@@ -22,7 +22,7 @@ pub(super) use batch::{Batch, BatchKernel, Results};
 pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 pub(super) use lanes::width;
 
-use super::dense;
+use crate::material::dense;
 use crate::material::{Kinematics, MaterialError, Order, Response, Strain};
 use crate::system::Idealisation;
 use signorini_geometry::element::ReferenceElement;

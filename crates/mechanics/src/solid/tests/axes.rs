@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::material::Oriented;
-use crate::solid::{Cylindrical, MaterialAxes, turn_about};
+use crate::solid::{Cylindrical, MaterialAxes};
+use signorini_geometry::tensor::turn_about;
 
 /// A body of an orthotropic law with these axes, or with those that a law brings.
 fn with(mesh: &Mesh, wish: &Wish, axes: Option<MaterialAxes>) -> Result<Body, SolidError> {

@@ -7,7 +7,7 @@ const SMALL: f64 = 0.1;
 
 /// Solves `a x = b` by elimination with pivoting, `b` of `nright` columns becoming `x`. Both are row-major; `a` is lost.
 /// `None` where a pivot is no longer a number of the matrix's own size.
-pub(super) fn solve(a: &mut [f64], n: usize, b: &mut [f64], nright: usize) -> Option<()> {
+pub(crate) fn solve(a: &mut [f64], n: usize, b: &mut [f64], nright: usize) -> Option<()> {
     let size = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     for k in 0..n {
         let pivot = (k..n).max_by(|&i, &j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()))?;
@@ -43,14 +43,14 @@ pub(super) fn solve(a: &mut [f64], n: usize, b: &mut [f64], nright: usize) -> Op
 }
 
 /// Subtracts a multiple of one row from another.
-pub(super) fn subtract(from: &mut [f64], factor: f64, row: &[f64]) {
+pub(crate) fn subtract(from: &mut [f64], factor: f64, row: &[f64]) {
     for (from, value) in from.iter_mut().zip(row) {
         *from -= factor * value;
     }
 }
 
 /// `½ ln(I + 2e)`, exact to round-off for small `e`, too.
-pub(super) fn half_logarithm(e: Sym3) -> Sym3 {
+pub(crate) fn half_logarithm(e: Sym3) -> Sym3 {
     let is_small = e.double_dot(e) < SMALL * SMALL;
     let by_series = is_small.then(|| half_logarithm_by_series(e)).flatten();
     by_series.unwrap_or_else(|| half_logarithm_by_rotations(e))
