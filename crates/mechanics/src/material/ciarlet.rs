@@ -1,4 +1,4 @@
-use super::neo_hookean::volume_terms;
+use super::neo_hookean::{higher_order, inverse_of_c, set_tangent, volume_terms};
 use super::{Lame, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
@@ -38,16 +38,10 @@ impl Material for Ciarlet {
     ) -> Result<(), MaterialError> {
         let Lame { lambda, mu } = self.lame;
         let e = &strain.value;
-        let c = *e * 2.0 + Sym3::IDENTITY;
-        let (inverse, det) = c.inverse().ok_or(MaterialError::Inverted { ratio: 0.0 })?;
-        if det <= 0.0 {
-            return Err(MaterialError::Inverted { ratio: det });
-        }
+        let (inverse, det) = inverse_of_c(e)?;
         // det C − 1 by invariants of E, without cancellation
-        let trace = e.trace();
-        let second = 0.5 * (trace * trace - e.double_dot(*e));
-        let higher = 4.0 * second + 8.0 * e.determinant();
-        let growth = 2.0 * trace + higher;
+        let higher = higher_order(e);
+        let growth = 2.0 * e.trace() + higher;
         let (_, excess) = volume_terms(e, det);
         // I − C⁻¹ = 2 E C⁻¹; E and C commute
         let product = e.to_mat3() * inverse.to_mat3();
@@ -55,15 +49,7 @@ impl Material for Ciarlet {
         out.stress = Sym3::symmetric_part(product) * (2.0 * mu) + inverse * pressure;
         out.energy = 0.25 * lambda * (excess + higher) + 0.5 * mu * excess;
         if order == Order::Tangent {
-            let b = inverse.to_mat3();
-            let ci = inverse.to_pairs();
-            let (bulk, shear) = (lambda * (1.0 + growth), mu - pressure);
-            for (p, (i, j)) in Sym3::PAIRS.into_iter().enumerate() {
-                for (q, (k, l)) in Sym3::PAIRS.into_iter().enumerate() {
-                    out.tangent[p][q] = bulk * ci[p] * ci[q]
-                        + shear * (b.rows[i][k] * b.rows[j][l] + b.rows[i][l] * b.rows[j][k]);
-                }
-            }
+            set_tangent(&inverse, lambda * (1.0 + growth), mu - pressure, out);
         }
         Ok(())
     }

@@ -50,26 +50,14 @@ impl Material for NeoHookean {
             return Ok(());
         }
         let Lame { lambda, mu } = self.lame;
-        let c = strain.value * 2.0 + Sym3::IDENTITY;
-        let (inverse, det) = c.inverse().ok_or(MaterialError::Inverted { ratio: 0.0 })?;
-        if det <= 0.0 {
-            return Err(MaterialError::Inverted { ratio: det });
-        }
+        let (inverse, det) = inverse_of_c(&strain.value)?;
         let (log, excess) = volume_terms(&strain.value, det);
         // I − C⁻¹ = 2 E C⁻¹, without cancellation; E and C commute
         let product = strain.value.to_mat3() * inverse.to_mat3();
         out.stress = Sym3::symmetric_part(product) * (2.0 * mu) + inverse * (lambda * log);
         out.energy = 0.5 * mu * excess + 0.5 * lambda * log * log;
         if order == Order::Tangent {
-            let b = inverse.to_mat3();
-            let ci = inverse.to_pairs();
-            let shear = mu - lambda * log;
-            for (p, (i, j)) in Sym3::PAIRS.into_iter().enumerate() {
-                for (q, (k, l)) in Sym3::PAIRS.into_iter().enumerate() {
-                    out.tangent[p][q] = lambda * ci[p] * ci[q]
-                        + shear * (b.rows[i][k] * b.rows[j][l] + b.rows[i][l] * b.rows[j][k]);
-                }
-            }
+            set_tangent(&inverse, lambda, mu - lambda * log, out);
         }
         Ok(())
     }
@@ -87,6 +75,37 @@ impl Material for NeoHookean {
 const SMALL: f64 = 0.01;
 const TERMS: i32 = 12;
 
+/// `C⁻¹` and `det C`, with `C = I + 2E`.
+///
+/// # Errors
+/// `det C` is not positive.
+pub(super) fn inverse_of_c(e: &Sym3) -> Result<(Sym3, f64), MaterialError> {
+    let c = *e * 2.0 + Sym3::IDENTITY;
+    let (inverse, det) = c.inverse().ok_or(MaterialError::Inverted { ratio: 0.0 })?;
+    if det <= 0.0 {
+        return Err(MaterialError::Inverted { ratio: det });
+    }
+    Ok((inverse, det))
+}
+
+/// The tangent `C_ijkl = b C⁻¹_ij C⁻¹_kl + s (C⁻¹_ik C⁻¹_jl + C⁻¹_il C⁻¹_jk)`.
+pub(super) fn set_tangent(inverse: &Sym3, bulk: f64, shear: f64, out: &mut Response) {
+    let (b, ci) = (inverse.to_mat3(), inverse.to_pairs());
+    for (p, (i, j)) in Sym3::PAIRS.into_iter().enumerate() {
+        for (q, (k, l)) in Sym3::PAIRS.into_iter().enumerate() {
+            out.tangent[p][q] = bulk * ci[p] * ci[q]
+                + shear * (b.rows[i][k] * b.rows[j][l] + b.rows[i][l] * b.rows[j][k]);
+        }
+    }
+}
+
+/// `det C − 1 − 2 tr E`, by invariants of `E`.
+pub(super) fn higher_order(e: &Sym3) -> f64 {
+    let trace = e.trace();
+    let second = 0.5 * (trace * trace - e.double_dot(*e));
+    4.0 * second + 8.0 * e.determinant()
+}
+
 /// `ln J` and `tr C − 3 − ln det C`.
 ///
 /// At small strain from `d = det C − 1` by invariants of `E`, without cancellation: `ln J = ½ ln(1 + d)`, and
@@ -97,8 +116,7 @@ pub(super) fn volume_terms(e: &Sym3, det: f64) -> (f64, f64) {
         let log = det.ln();
         return (0.5 * log, 2.0 * trace - log);
     }
-    let second = 0.5 * (trace * trace - e.double_dot(*e));
-    let higher = 4.0 * second + 8.0 * e.determinant();
+    let higher = higher_order(e);
     let d = 2.0 * trace + higher;
     let series = (2..2 + TERMS)
         .rev()

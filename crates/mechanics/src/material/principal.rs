@@ -29,16 +29,27 @@ pub(super) const PAIRS: [(usize, usize); 3] = [(0, 1), (1, 2), (0, 2)];
 impl InAxes {
     /// Writes stress and tangent, in the global axes.
     pub fn put(&self, of: &Principal, order: Order, out: &mut Response) {
-        let [a, b, c] = self.stress;
-        out.stress = Sym3::diagonal(a, b, c);
-        if order == Order::Tangent {
-            out.tangent = [[0.0; 6]; 6];
-            for (i, (normal, shear)) in self.normal.iter().zip(self.shear).enumerate() {
-                out.tangent[i][..3].copy_from_slice(normal);
-                out.tangent[i + 3][i + 3] = 0.5 * shear;
-            }
-        }
+        let half = self.shear.map(|quotient| 0.5 * quotient);
+        put_in_axes(self.stress, &self.normal, half, order, out);
         of.turn_back(order, out);
+    }
+}
+
+/// Writes stress and tangent in the principal axes: `S_i`, `∂S_i/∂E_j`, `C_ijij`.
+pub(super) fn put_in_axes(
+    [a, b, c]: [f64; 3],
+    normal: &[[f64; 3]; 3],
+    shear: [f64; 3],
+    order: Order,
+    out: &mut Response,
+) {
+    out.stress = Sym3::diagonal(a, b, c);
+    if order == Order::Tangent {
+        out.tangent = [[0.0; 6]; 6];
+        for (i, (normal, shear)) in normal.iter().zip(shear).enumerate() {
+            out.tangent[i][..3].copy_from_slice(normal);
+            out.tangent[i + 3][i + 3] = shear;
+        }
     }
 }
 

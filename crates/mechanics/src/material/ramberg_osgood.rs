@@ -127,7 +127,7 @@ impl RambergOsgood {
             let plastic = self.plastic(q);
             let excess = q / elastic + plastic - strain;
             let step = excess / (elastic.recip() + self.exponent * plastic / q);
-            // what is left is rounding
+            // the rest is rounding
             if step <= f64::EPSILON * q {
                 return Ok(q - step);
             }

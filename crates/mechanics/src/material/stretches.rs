@@ -1,10 +1,10 @@
 //! Hyperelastic laws in the principal stretches, whose energy has powers of them.
 
 use super::logarithmic::Logarithmic;
+use super::principal::{PAIRS, put_in_axes};
 use super::{
     Constants, ConstantsError, Kinematics, Lame, Material, MaterialError, Order, Response, Strain,
 };
-use signorini_geometry::tensor::Sym3;
 
 /// Such a law, evaluated by the logarithmic principal strains `ε_i`. Whoever has it is a material.
 pub(super) trait InStretches: std::fmt::Debug + Send + Sync {
@@ -31,7 +31,7 @@ impl Principal {
     /// Adds the shear stiffness that belongs to `2μ/α x_i` in the stress, `x_i + 1` being some common factor times
     /// `exp(α ε_i)`.
     pub fn shear(&mut self, mu: f64, alpha: f64, strain: &[f64; 3], x: [f64; 3]) {
-        for (shear, (i, j)) in self.shear.iter_mut().zip([(0, 1), (1, 2), (0, 2)]) {
+        for (shear, (i, j)) in self.shear.iter_mut().zip(PAIRS) {
             let distance = alpha * (strain[i] - strain[j]);
             let share = if distance == 0.0 {
                 1.0
@@ -59,16 +59,14 @@ impl<L: InStretches> Material for L {
         let logarithmic = Logarithmic::new(&strain.value)?;
         let mut principal = Principal::default();
         self.add(&logarithmic.strain, &mut principal);
-        let [a, b, c] = principal.stress;
-        out.energy = principal.energy;
-        out.stress = Sym3::diagonal(a, b, c);
-        if order == Order::Tangent {
-            out.tangent = [[0.0; 6]; 6];
-            for (i, (normal, shear)) in principal.normal.iter().zip(principal.shear).enumerate() {
-                out.tangent[i][..3].copy_from_slice(normal);
-                out.tangent[i + 3][i + 3] = shear;
-            }
-        }
+        let Principal {
+            energy,
+            stress,
+            normal,
+            shear,
+        } = principal;
+        out.energy = energy;
+        put_in_axes(stress, &normal, shear, order, out);
         logarithmic.pull_back(order, out);
         Ok(())
     }
