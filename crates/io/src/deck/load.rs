@@ -202,7 +202,7 @@ impl Translation<'_> {
                     self::vector("force", vector)
                 };
                 all.push((Where::Reference(carrier.name.clone(), turns, axis), kind));
-            } else if dof > 3 && self.has_structures() {
+            } else if dof > 3 && self.has_structures {
                 // their sections are refused
                 break;
             } else if dof > 3 {
@@ -267,7 +267,7 @@ impl Translation<'_> {
                     .strip_prefix('P')
                     .and_then(|side| side.parse::<u8>().ok());
                 let Some(side) = side.filter(|side| *side > 0) else {
-                    if self.has_structures() {
+                    if self.has_structures {
                         return Vec::new();
                     }
                     let text = format!("*DLOAD has no load `{label}` here");

@@ -15,21 +15,13 @@ pub(super) struct Repeated<'d> {
 
 struct Finding<'d> {
     one: Diagnostic,
-    remark: String,
-    known: Option<String>,
     first: &'d Place,
     others: Vec<&'d Place>,
 }
 
 impl<'d> Repeated<'d> {
-    /// What is found at a place, with a remark on it and a note below; a finding of the same message has one more place.
-    pub fn add(
-        &mut self,
-        one: Diagnostic,
-        remark: impl Into<String>,
-        place: &'d Place,
-        known: Option<String>,
-    ) {
+    /// What is found at a place; a finding of the same message has one more place.
+    pub fn add(&mut self, one: Diagnostic, place: &'d Place) {
         let number = self.numbers.get(&one.message).copied();
         if let Some(known) = number.and_then(|number| self.found.get_mut(number)) {
             known.others.push(place);
@@ -38,8 +30,6 @@ impl<'d> Repeated<'d> {
         self.numbers.insert(one.message.clone(), self.found.len());
         self.found.push(Finding {
             one,
-            remark: remark.into(),
-            known,
             first: place,
             others: Vec::new(),
         });
@@ -48,14 +38,10 @@ impl<'d> Repeated<'d> {
     /// Reports all of them.
     pub fn report(self, found: &mut Diagnostics) {
         for finding in self.found {
-            let mut one = finding.one.at(finding.first, finding.remark);
-            if let Some(known) = finding.known {
-                one = one.note(known);
-            }
-            if let Some(lines) = also_in(finding.first, &finding.others) {
-                one = one.note(lines);
-            }
-            found.push(one);
+            found.push(match also_in(finding.first, &finding.others) {
+                Some(lines) => finding.one.note(lines),
+                None => finding.one,
+            });
         }
     }
 }

@@ -12,6 +12,19 @@ const FLAT: f64 = 1e-9;
 /// Elements that are not built.
 const STRUCTURES: [&str; 3] = ["shell", "membrane", "beam"];
 
+/// Whether some cards are sections of elements that are not built.
+pub(super) fn are_structures(cards: &[Statement]) -> bool {
+    let refused = [
+        "SHELLSECTION",
+        "BEAMSECTION",
+        "BEAMGENERALSECTION",
+        "MEMBRANESECTION",
+    ];
+    cards
+        .iter()
+        .any(|card| refused.contains(&card.keyword.as_str()))
+}
+
 impl Translation<'_> {
     /// Refuses a deck all of whose elements are shells, beams or membranes: whatever else it says is about these.
     pub fn has_only_structures(&mut self) -> bool {
@@ -43,18 +56,6 @@ impl Translation<'_> {
         self.found
             .push(one.help("mesh the part with solids, such as C3D10 or C3D20R"));
         true
-    }
-
-    /// Whether sections are refused whose elements take loads that solids do not: moments, and pressures on their faces.
-    pub fn has_structures(&self) -> bool {
-        let refused = [
-            "SHELLSECTION",
-            "BEAMSECTION",
-            "BEAMGENERALSECTION",
-            "MEMBRANESECTION",
-        ];
-        let mut cards = self.deck.statements.iter();
-        cards.any(|card| refused.contains(&card.keyword.as_str()))
     }
 
     /// Refuses elements that no section gives a material, and no rigid body its motion: without them, and the loads on

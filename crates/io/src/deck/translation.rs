@@ -4,7 +4,7 @@ use super::compat::Compat;
 use super::keywords::{Keyword, Support};
 use super::names::Names;
 use super::repeated::Repeated;
-use super::{constraint, contact, material, submodel};
+use super::{constraint, contact, material, sections, submodel};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
@@ -35,6 +35,8 @@ pub(super) struct Translation<'d> {
     pub carriers: BTreeMap<u64, constraint::Carrier>,
     /// Whether a constraint bends with large displacements: then all steps are of large displacements.
     pub bends: bool,
+    /// Whether sections are refused whose elements take loads that solids do not: moments, and pressures on their faces.
+    pub has_structures: bool,
     pub materials: BTreeMap<String, material::Properties>,
     /// Places of amplitudes in the case, by what their names are compared by.
     pub amplitudes: BTreeMap<String, usize>,
@@ -59,27 +61,27 @@ pub(super) fn is_truss(kind: &str) -> bool {
     kind.starts_with("T2D") || kind.starts_with("T3D")
 }
 
-/// What becomes of a card that no keyword is for, and what is remarked at it. CalculiX passes over it with a warning; one
+/// What becomes of a card that no keyword is for. CalculiX passes over it with a warning; one
 /// that is written like another is a typing error.
-fn unknown_keyword(card: &Statement, compat: Compat) -> (Diagnostic, String) {
+fn unknown_keyword(card: &Statement, compat: Compat) -> Diagnostic {
     let names = super::KEYWORDS.iter().map(|one| one.name);
     if let Some(meant) = closest(&card.title, names) {
         let text = format!("there is no keyword *{}", card.title);
         let remark = format!("did you mean *{meant}?");
-        return (Diagnostic::error(&codes::UNKNOWN_KEY, text), remark);
+        return Diagnostic::error(&codes::UNKNOWN_KEY, text).at(&card.place, remark);
     }
     if compat == Compat::Ccx {
         let text = format!(
             "*{} is not known: it is left out, as CalculiX does",
             card.title
         );
-        return (Diagnostic::warning(&codes::UNUSUAL, text), String::new());
+        return Diagnostic::warning(&codes::UNUSUAL, text).at(&card.place, "");
     }
     let text = format!("there is no keyword *{}", card.title);
     let help =
         "if it changes no result, remove it; `signorini keywords` lists those that are known";
-    let one = Diagnostic::error(&codes::UNKNOWN_KEY, text).help(help);
-    (one, String::new())
+    let one = Diagnostic::error(&codes::UNKNOWN_KEY, text).at(&card.place, "");
+    one.help(help)
 }
 
 impl<'d> Translation<'d> {
@@ -115,6 +117,7 @@ impl<'d> Translation<'d> {
             axes: BTreeMap::new(),
             carriers: BTreeMap::new(),
             bends: false,
+            has_structures: sections::are_structures(&deck.statements),
             materials: BTreeMap::new(),
             amplitudes: BTreeMap::new(),
             pairs: Vec::new(),
@@ -148,7 +151,8 @@ impl<'d> Translation<'d> {
             for (name, value) in named {
                 if let Some(fault) = judge(&card.keyword, name, value) {
                     let one = Diagnostic::error(fault.code, fault.message);
-                    faults.add(one, fault.remark, &card.place, Some(fault.known));
+                    let one = one.at(&card.place, fault.remark).note(fault.known);
+                    faults.add(one, &card.place);
                 }
             }
         }
@@ -159,33 +163,36 @@ impl<'d> Translation<'d> {
     /// are not built or not known.
     pub fn judge(&mut self) {
         let mut all = Repeated::default();
-        let note = |text| Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text);
         for card in &self.deck.statements {
             let place = &card.place;
+            let note =
+                |text| Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text).at(place, "");
             match Keyword::of(&card.keyword) {
                 Some(known) if known.support == Support::Read => {
                     if card.is_unread() {
                         let text = format!("*{} is left out: it is not read here", known.name);
-                        all.add(note(text), "", place, None);
+                        all.add(note(text), place);
                         continue;
                     }
                     for name in card.unread() {
-                        all.add(note(not_read(&card.keyword, name)), "", place, None);
+                        all.add(note(not_read(&card.keyword, name)), place);
                     }
                 }
                 Some(known) if known.support == Support::Ignored => {
                     if !known.remark.is_empty() {
                         let text = format!("*{} is left out: {}", known.name, known.remark);
-                        all.add(note(text), "", place, None);
+                        all.add(note(text), place);
                     }
                 }
                 Some(known) => {
                     let text = format!("*{} is not supported: {}", known.name, known.remark);
-                    all.add(Diagnostic::error(&codes::NOT_BUILT, text), "", place, None);
+                    all.add(
+                        Diagnostic::error(&codes::NOT_BUILT, text).at(place, ""),
+                        place,
+                    );
                 }
                 None => {
-                    let (one, remark) = unknown_keyword(card, self.compat);
-                    all.add(one, remark, place, None);
+                    all.add(unknown_keyword(card, self.compat), place);
                 }
             }
         }
