@@ -168,14 +168,14 @@ class Checkpoint(Table):
 
 
 class ConstraintLocal(Table):
-    """Axes that the directions of kinematic are along, at the place of each node: two vectors, or a cylindrical system.
+    """Axes that the directions of kinematic are along, x first, at the place of each node: two vectors, or a cylindrical system.
 
     TOML: `constraint.local`.
     """
 
     _toml = "constraint.local"
     from_: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
-        "A point of the axis of a cylindrical system: x is radial, y circumferential, z along the axis",
+        "A point of the axis of a cylindrical system: radial, circumferential, along the axis",
         "list of number",
         key="from",
     )
@@ -215,7 +215,7 @@ class Constraint(Table):
     )
     local: One[ConstraintLocal] = One(
         ConstraintLocal,
-        "Axes that the directions of kinematic are along, at the place of each node: two vectors, or a cylindrical system",
+        "Axes that the directions of kinematic are along, x first, at the place of each node: two vectors, or a cylindrical system",
         "a table",
     )
     most: Key[float | None, float] = Key(

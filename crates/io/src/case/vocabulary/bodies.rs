@@ -1,5 +1,6 @@
 //! Materials, bodies, springs, constraints.
 
+use super::geometry::{AXES_RULES, OF_AXES};
 use super::*;
 
 pub(super) static MATERIAL: Table = Table {
@@ -310,33 +311,11 @@ pub(super) static CONSTRAINT: Table = Table {
 };
 static LOCAL: Table = Table {
     heading: "[constraint.local]",
-    doc: "axes that the directions of kinematic are along, at the place of each node: two vectors, or a cylindrical system",
-    keys: &[
-        key(
-            "x",
-            VECTOR,
-            "a vector along the first axis, the same everywhere",
-        ),
-        key(
-            "xy",
-            VECTOR,
-            "a vector in the plane of the first and the second",
-        ),
-        key(
-            "from",
-            VECTOR,
-            "a point of the axis of a cylindrical system: x is radial, y circumferential, z along the axis",
-        ),
-        key("to", VECTOR, "another one"),
-    ],
-    rules: &[
-        Rule::ExactlyOne(&["x", "from"]),
-        Rule::Needs("x", "xy"),
-        Rule::Needs("xy", "x"),
-        Rule::Needs("from", "to"),
-        Rule::Needs("to", "from"),
-    ],
+    doc: "axes that the directions of kinematic are along, x first, at the place of each node: two vectors, or a cylindrical system",
+    keys: &OF_AXES,
+    rules: AXES_RULES,
 };
+
 /// Displacements along, and rotations about the axes.
 const COMPONENT: Shape = Shape::Choice(&[
     word("x"),

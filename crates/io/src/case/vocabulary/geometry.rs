@@ -124,31 +124,40 @@ pub(super) static AXES: Table = Table {
         key("set", Shape::Text, "the set or group of nodes")
             .required()
             .hints(&["on"]),
-        key(
-            "x",
-            VECTOR,
-            "a vector along the first axis, the same everywhere",
-        ),
-        key(
-            "xy",
-            VECTOR,
-            "a vector in the plane of the first and the second",
-        ),
-        key(
-            "from",
-            VECTOR,
-            "a point of the axis of a cylindrical system: radial, circumferential, along the axis",
-        ),
-        key("to", VECTOR, "another one"),
+        OF_AXES[0],
+        OF_AXES[1],
+        OF_AXES[2],
+        OF_AXES[3],
     ],
-    rules: &[
-        Rule::ExactlyOne(&["x", "from"]),
-        Rule::Needs("x", "xy"),
-        Rule::Needs("xy", "x"),
-        Rule::Needs("from", "to"),
-        Rule::Needs("to", "from"),
-    ],
+    rules: AXES_RULES,
 };
+
+/// How local axes lie: by two vectors, or by two points of the axis of a cylindrical system.
+pub(super) const OF_AXES: [Key; 4] = [
+    key(
+        "x",
+        VECTOR,
+        "a vector along the first axis, the same everywhere",
+    ),
+    key(
+        "xy",
+        VECTOR,
+        "a vector in the plane of the first and the second",
+    ),
+    key(
+        "from",
+        VECTOR,
+        "a point of the axis of a cylindrical system: radial, circumferential, along the axis",
+    ),
+    key("to", VECTOR, "another one"),
+];
+pub(super) const AXES_RULES: &[Rule] = &[
+    Rule::ExactlyOne(&["x", "from"]),
+    Rule::Needs("x", "xy"),
+    Rule::Needs("xy", "x"),
+    Rule::Needs("from", "to"),
+    Rule::Needs("to", "from"),
+];
 
 pub(super) static INITIAL: Table = Table {
     heading: "[initial]",
