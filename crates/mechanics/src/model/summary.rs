@@ -31,6 +31,8 @@ pub struct ContactSummary {
     pub nfacet: usize,
     /// Size of the facets.
     pub facet_size: f64,
+    /// Nodes that both sides have, which are not compared; sorted.
+    pub shared: Vec<NodeId>,
     /// What is near at the start.
     pub start: StartSummary,
 }

@@ -7,7 +7,7 @@ use super::surfaces::Surfaces;
 use super::{own, quoted};
 use crate::own::Own;
 use crate::text::short;
-use signorini_geometry::mesh::{Face, NodeId};
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
     self, Area, Augmentation, Case, Contact, Enforcement, Friction, Normals, Offset, Pairs, Per,
@@ -24,7 +24,6 @@ use signorini_mechanics::model::{
     PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
 };
 use signorini_vocabulary::Entry;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The contacts that act in some step. Their places in this list are their numbers.
@@ -54,11 +53,6 @@ pub(super) fn contact(
     };
     if matches!(secondary, SidePart::Nodes(_)) {
         found.append(bare(part));
-    }
-    if let PrimaryPart::Faces(faces) = &primary
-        && let Some(note) = sharing(part, &secondary, faces, names)
-    {
-        found.push(note);
     }
     Some(ContactPart {
         method: method(part),
@@ -141,31 +135,33 @@ fn primary(
     names.side(&part.primary, found).map(primary_of)
 }
 
-/// A note on nodes that both sides have: where two surfaces of one body meet.
-fn sharing(
-    part: &Contact,
-    secondary: &SidePart,
-    primary: &[Face],
-    names: &Names<'_>,
-) -> Option<Diagnostic> {
-    let of_primary: BTreeSet<NodeId> = names.nodes_of_faces(primary).collect();
-    let of_secondary: BTreeSet<NodeId> = match secondary {
-        SidePart::Nodes(nodes) => nodes.iter().copied().collect(),
-        SidePart::Faces(faces) => names.nodes_of_faces(faces).collect(),
-    };
-    let mut shared = of_secondary.intersection(&of_primary);
-    let first = *shared.next()?;
-    let more = match shared.count() {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    let label = names.label(first);
-    let text = format!(
-        "contact {}: both sides have node {label}{more}, left out of the contact",
-        quoted(&part.name)
-    );
-    let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text);
-    Some(note.at(&part.secondary.place, "where the two surfaces meet"))
+/// Notes on nodes that both sides of a contact have: where two surfaces of one body meet.
+pub(super) fn sharing(case: &Case, contacts: &[ContactSummary], names: &Names<'_>) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    for summary in contacts {
+        let Some((&first, others)) = summary.shared.split_first() else {
+            continue;
+        };
+        let more = match others.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let text = format!(
+            "contact \"{}\": both sides have node {}{more}, left out of the contact",
+            summary.name,
+            names.label(first)
+        );
+        let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text);
+        let part = case
+            .contacts
+            .iter()
+            .find(|one| one.name.value == summary.name);
+        found.push(match part {
+            Some(part) => note.at(&part.secondary.place, "where the two surfaces meet"),
+            None => note,
+        });
+    }
+    found
 }
 
 fn primary_of(side: SidePart) -> PrimaryPart {

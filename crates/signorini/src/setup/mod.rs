@@ -196,6 +196,7 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
     if found.has_errors() {
         return Err(found);
     }
+    found.append(contact::sharing(&case, &model.contacts, &names));
     found.append(gaps::findings(&case, &mesh, &contacts));
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);

@@ -358,12 +358,6 @@ impl<'a> Names<'a> {
         self.mesh.points.get(node as usize).copied()
     }
 
-    /// The nodes of faces, those of several more than once.
-    pub fn nodes_of_faces(&self, faces: &[Face]) -> impl Iterator<Item = NodeId> {
-        let of_each = faces.iter().filter_map(|face| self.mesh.face(*face));
-        of_each.flat_map(|(_, nodes)| nodes)
-    }
-
     /// The number of a node in the input.
     pub fn label(&self, node: NodeId) -> u64 {
         let label = self.mesh.node_labels.get(node as usize);

@@ -198,6 +198,7 @@ impl Context<'_> {
             npoint: sides.pair.points.len(),
             nfacet: sides.pair.primary.nfacet(),
             facet_size: length,
+            shared: sides.shared,
             start: StartSummary {
                 open_edges,
                 ..StartSummary::new(&found, &look, part, size)

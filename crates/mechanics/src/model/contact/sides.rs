@@ -42,6 +42,8 @@ pub(in crate::model) struct Sides {
     pub area: Vec<f64>,
     pub areas: Option<Areas>,
     pub sliding: SlidingRange,
+    /// Nodes that both sides have.
+    pub shared: Vec<NodeId>,
     pub swapped: bool,
     /// Which of the contact's variants it is a pass of.
     pub variant: usize,
@@ -98,6 +100,7 @@ impl Source<'_> {
             swapped,
             variant: 0,
             facets: pass.primary.clone(),
+            shared: pass.shared.clone(),
             pair: pass.into_pair(),
         })
     }
