@@ -344,6 +344,20 @@ fn word(text: &[u8]) -> Result<String, &'static str> {
 /// # Errors
 /// Any fault in the file, with the line; elements of nodes that are not there; coordinates that are not finite.
 pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    let (mesh, frd) = read_all(name, bytes)?;
+    let mut notes = Vec::new();
+    if !frd.datasets.is_empty() {
+        let n = frd.datasets.len();
+        notes.push(format!("{n} data sets of results are left out of the mesh"));
+    }
+    Ok((mesh, notes))
+}
+
+/// Reads the mesh and everything else of a file. `name` appears in messages.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_all(name: &str, bytes: &[u8]) -> Result<(Mesh, Frd), MeshError> {
     let place = || Place::File(name.into());
     if bytes.trim_ascii().is_empty() {
         return Err(MeshError::Empty { place: place() });
@@ -355,12 +369,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> 
         },
         what,
     })?;
-    let mut notes = Vec::new();
-    if !frd.datasets.is_empty() {
-        let n = frd.datasets.len();
-        notes.push(format!("{n} data sets of results are left out of the mesh"));
-    }
-    Ok((mesh_of(place(), &frd)?, notes))
+    Ok((mesh_of(place(), &frd)?, frd))
 }
 
 /// The mesh of what was read.

@@ -14,7 +14,7 @@ use signorini_io::fs::{Fs, RealFs};
 use signorini_io::readers::{frd, vtu};
 use signorini_io::vtk;
 use signorini_io::writers::pvd::Pvd;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 /// How far from the global model a node may lie, over the size of the face that is closest to it.
@@ -62,7 +62,7 @@ pub fn read_motions_of(
                 let (Some(global), Some(nodes)) = (global, names.nodes(&one.on, &mut found)) else {
                     continue;
                 };
-                match global.at(mesh, &nodes, (&one.on, from)) {
+                match global.at((mesh, &names), &nodes, (&one.on, from)) {
                     Ok(values) => wanted.push((s, m, values)),
                     Err(fault) => found.push(*fault),
                 }
@@ -86,7 +86,7 @@ impl Global {
     /// Displacements at the undeformed places of nodes.
     fn at(
         &self,
-        mesh: &Mesh,
+        (mesh, names): (&Mesh, &Names<'_>),
         nodes: &[NodeId],
         (on, from): (&Name, &GlobalModel),
     ) -> Result<Values, Box<Diagnostic>> {
@@ -119,11 +119,7 @@ impl Global {
             } else if let Some(u) = self.displacement(&located) {
                 values.push((node, u.to_array()));
             } else {
-                let label = mesh
-                    .node_labels
-                    .get(node as usize)
-                    .copied()
-                    .unwrap_or_default();
+                let label = names.label(node);
                 let text = format!(
                     "{} has no displacement where node {label} lies",
                     from.file.value.display()
@@ -134,11 +130,7 @@ impl Global {
         let Some(&(node, distance)) = outside.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else {
             return Ok(values);
         };
-        let label = mesh
-            .node_labels
-            .get(node as usize)
-            .copied()
-            .unwrap_or_default();
+        let label = names.label(node);
         let text = format!(
             "{} of the {} nodes of {} lie outside of the global model: node {label} by {distance:.3e}",
             outside.len(),
@@ -246,9 +238,10 @@ fn no_step(
 /// The global model in a `.frd` file.
 fn of_frd(bytes: &[u8], file: &Path, from: &GlobalModel) -> Result<Global, Box<Diagnostic>> {
     let (name, place) = (file.display().to_string(), &from.file.place);
-    let bad = |text: String| fault(&codes::BAD_MESH, text, place, "the global model");
-    let (mesh, _) = frd::read(&name, bytes).map_err(|error| bad(error.to_string()))?;
-    let all = frd::parse(bytes).map_err(|error| bad(format!("{name}: {}", error.what)))?;
+    let (mesh, all) = frd::read_all(&name, bytes).map_err(|error| {
+        let text = error.to_string();
+        fault(&codes::BAD_MESH, text, place, "the global model")
+    })?;
     let mut fields = all.datasets.iter().filter(|one| one.name == "DISP");
     let steps = || {
         all.datasets
@@ -357,8 +350,8 @@ fn of_list(
             of_frame(&frame(&read(fs, at, place, files)?, at, place)?, at, place)
         }
         GlobalTime::Step(wanted) => {
-            let mut known: BTreeMap<u64, usize> = BTreeMap::new();
-            for (number, at) in frames.iter().enumerate().rev() {
+            let mut known: BTreeSet<u64> = BTreeSet::new();
+            for at in frames.iter().rev() {
                 let bytes = read(fs, at, place, &mut BTreeSet::new())?;
                 let one = frame(&bytes, at, place)?;
                 let step = step_of(&one);
@@ -366,9 +359,9 @@ fn of_list(
                     files.insert(at.clone());
                     return of_frame(&one, at, place);
                 }
-                known.extend(step.map(|step| (step, number)));
+                known.extend(step);
             }
-            Err(no_step(wanted, known.into_keys(), file, place))
+            Err(no_step(wanted, known.into_iter(), file, place))
         }
     }
 }
