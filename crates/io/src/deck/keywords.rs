@@ -50,7 +50,7 @@ const fn refused(name: &'static str, remark: &'static str) -> Keyword {
 pub const KEYWORDS: &[Keyword] = &[
     read(
         "AMPLITUDE",
-        "NAME, TIME=TOTAL TIME; linear between its rows; in steps, too",
+        "NAME, TIME=TOTAL TIME, SHIFTX, SHIFTY; linear between its rows; in steps, too",
     ),
     read("ASSEMBLY", "with END ASSEMBLY"),
     refused("BEAM GENERAL SECTION", "beams are not built yet"),
@@ -79,7 +79,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "CONTROLS",
         "increments and iterations have controls of their own",
     ),
-    read("COUPLING", "with KINEMATIC or DISTRIBUTING, of surfaces"),
+    read(
+        "COUPLING",
+        "with KINEMATIC or DISTRIBUTING, of surfaces; ORIENTATION",
+    ),
     refused("CREEP", "creep is not built"),
     refused("CYCLIC HARDENING", "combined hardening is not built"),
     read("CYCLIC SYMMETRY MODEL", "N, TIE, of matching sides"),
@@ -119,7 +122,10 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("ENERGY FILE", "all fields are written anyway"),
     ignored("ENERGY OUTPUT", "all fields are written anyway"),
     ignored("ENERGY PRINT", "sums of energy are not printed"),
-    read("EQUATION", "of displacements"),
+    read(
+        "EQUATION",
+        "of displacements, and of rotations of rigid bodies",
+    ),
     read("EXPANSION", "isotropic, by temperature; ZERO"),
     ignored("FILE FORMAT", "all fields are written anyway"),
     ignored("FILE OUTPUT", "all fields are written anyway"),

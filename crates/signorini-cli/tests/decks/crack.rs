@@ -1,7 +1,7 @@
 //! The faces of a crack share the nodes of its front: pressed together they bear what the sound plate does.
 
-use crate::solved;
-use signorini::{Compat, Reading, load};
+use crate::{read, solved};
+use signorini::Compat;
 use std::fmt::Write;
 
 /// Cells along each edge.
@@ -76,12 +76,7 @@ fn stresses(deck: &str, compat: Compat) -> [f64; 2] {
     let scratch = tempfile::tempdir().unwrap();
     let path = scratch.path().join("crack.inp");
     std::fs::write(&path, deck).unwrap();
-    let reading = Reading {
-        compat: Some(compat),
-        ..Reading::default()
-    };
-    let loaded = load(&path, &reading).unwrap_or_else(|found| panic!("{}", found.plain()));
-    let done = solved(loaded);
+    let done = solved(read(&path, compat));
     let all = done.frames.last().unwrap().cell_stress.iter().flatten();
     let all: Vec<f64> = all.map(|stress| stress.yy()).collect();
     [
