@@ -251,6 +251,7 @@ impl Solution {
                 integration: Integration::Full,
                 locking: Locking::None,
                 space: None,
+                profile: None,
                 linear_temperatures: false,
                 at_nodes: Default::default(),
                 initial: Vec::new(),

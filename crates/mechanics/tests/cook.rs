@@ -108,6 +108,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 integration: Integration::Full,
                 locking,
                 space: None,
+                profile: None,
                 linear_temperatures: false,
                 at_nodes: Default::default(),
                 initial: Vec::new(),

@@ -169,6 +169,7 @@ fn solution(
                 integration: choice.integration,
                 locking: choice.locking,
                 space: None,
+                profile: None,
                 linear_temperatures: false,
                 at_nodes: Default::default(),
                 initial: Vec::new(),

@@ -11,6 +11,9 @@ use crate::tensor::{Sym3, Vec3};
 use std::collections::HashMap;
 use thiserror::Error;
 
+/// The extent of a facet across the plane where its nodes have these shape functions, at a position.
+pub type Extent<'a> = dyn Fn(u32, &[f64], Vec3) -> f64 + 'a;
+
 /// Facets of elements, with who is whose neighbour.
 ///
 /// # Example
@@ -201,7 +204,7 @@ impl Facets {
     }
 
     /// `∫ N_i e dA` of every node over all facets, in the order of [`Facets::all_nodes`]; `dA` is a length in the plane,
-    /// and `e` the extent across it of a facet at a position (thickness, circumference; 1 in space). These are the forces
+    /// and `e` the [`Extent`] across it (thickness, circumference; 1 in space). These are the forces
     /// of a unit traction: at the corners of tri6 and quad8 they vanish or are negative.
     ///
     /// # Errors
@@ -222,7 +225,7 @@ impl Facets {
     /// };
     /// mesh.push_cell(by_name("tet4").ok_or("not in the table")?, &[0, 1, 2, 3], 1);
     /// let surface = Facets::new(&mesh, &boundary(&mesh, mesh.cells(3)))?;
-    /// let areas = surface.nodal_areas(&mesh.points, &|_, _| 1.0)?;
+    /// let areas = surface.nodal_areas(&mesh.points, &|_, _, _| 1.0)?;
     /// // three right-angled triangles and one with sides √2
     /// let exact = 1.5 + 3_f64.sqrt() / 2.0;
     /// assert!((areas.iter().map(|(_, area)| area).sum::<f64>() - exact).abs() < 1e-14);
@@ -231,7 +234,7 @@ impl Facets {
     pub fn nodal_areas(
         &self,
         x: &[Vec3],
-        extent: &dyn Fn(u32, Vec3) -> f64,
+        extent: &Extent<'_>,
     ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
         self.gather(|facet| Ok(self.integrals(x, facet, extent)?.0))
     }
@@ -248,7 +251,7 @@ impl Facets {
     pub fn lumped_areas(
         &self,
         x: &[Vec3],
-        extent: &dyn Fn(u32, Vec3) -> f64,
+        extent: &Extent<'_>,
     ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
         self.gather(|facet| {
             let (consistent, squares) = self.integrals(x, facet, extent)?;
@@ -300,7 +303,7 @@ impl Facets {
         &self,
         x: &[Vec3],
         facet: u32,
-        extent: &dyn Fn(u32, Vec3) -> f64,
+        extent: &Extent<'_>,
     ) -> Result<([f64; MAX_FACET_NODES], [f64; MAX_FACET_NODES]), SurfaceError> {
         let missing = SurfaceError::NoSuchFacet { facet };
         let element = self.element(facet).ok_or(missing)?;
@@ -310,7 +313,9 @@ impl Facets {
         for (xi, weight) in element.surface_rule().iter() {
             let anchor = Anchor { facet, local: *xi };
             self.jet(&at, &anchor, &mut jet)?;
-            let area = weight * area_factor(&jet, self.ntan) * extent(facet, jet.position);
+            let area = weight
+                * area_factor(&jet, self.ntan)
+                * extent(facet, &jet.shape[..jet.nnode], jet.position);
             for (i, n) in jet.shape.iter().take(jet.nnode).enumerate() {
                 first[i] += n * area;
                 second[i] += n * n * area;

@@ -76,7 +76,7 @@ pub use contact_surface::ContactSurface;
 pub use cylinder::Cylinder;
 pub use error::{AnalyticalError, SurfaceError};
 pub use extension::{extended_edge, extended_face};
-pub use facets::{Facets, FacetsError};
+pub use facets::{Extent, Facets, FacetsError};
 pub use mount::Mount;
 pub use placement::{Carrier, Placement, Pose, RigidId};
 pub use plane::Plane;

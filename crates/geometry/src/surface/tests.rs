@@ -285,7 +285,7 @@ fn outward_on_a_ridge_is_between_the_normals_and_a_rim_is_named() {
 #[test]
 fn nodal_areas_share_the_area_of_the_facets() {
     let (surface, x) = strip(3, 0.0);
-    let areas = surface.nodal_areas(&x, &|_, _| 1.0).unwrap();
+    let areas = surface.nodal_areas(&x, &|_, _, _| 1.0).unwrap();
     let total: f64 = areas.iter().map(|a| a.1).sum();
     assert!((total - 3.0).abs() < 1e-14);
     assert!((areas[0].1 - 0.25).abs() < 1e-15);
@@ -331,7 +331,7 @@ fn lumped_areas_are_positive_and_sum_to_the_area() {
         let (surface, points) = single(element);
         for amount in [0.0, 0.1, warp(element)] {
             let x = shaped(&surface, points.len(), &mut random, amount);
-            let extent = |_, p: Vec3| 2.0 + p.x;
+            let extent = |_, _: &[f64], p: Vec3| 2.0 + p.x;
             let consistent = surface.nodal_areas(&x, &extent).unwrap();
             let lumped = surface.lumped_areas(&x, &extent).unwrap();
             let sum = |areas: &[(NodeId, f64)]| areas.iter().map(|a| a.1).sum::<f64>();
@@ -342,7 +342,7 @@ fn lumped_areas_are_positive_and_sum_to_the_area() {
             assert_eq!(lumped == consistent, straight, "{name}");
         }
         let x = shaped(&surface, points.len(), &mut random, 0.0);
-        let areas = surface.lumped_areas(&x, &|_, _| 1.0).unwrap();
+        let areas = surface.lumped_areas(&x, &|_, _, _| 1.0).unwrap();
         let of = |i: usize| {
             let node = surface.nodes(0)[i];
             areas.iter().find(|a| a.0 == node).unwrap().1

@@ -172,7 +172,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     ignored("MONITOR", "every increment is told of"),
     read("MPC", "PLANE, STRAIGHT, BEAM, MEANROT, DIST"),
-    read("NODAL THICKNESS", "where no section asks for it"),
+    read("NODAL THICKNESS", "of plane sections that ask for it"),
     read("NODE", "SYSTEM"),
     ignored("NODE FILE", "all fields are written anyway"),
     ignored("NODE OUTPUT", "all fields are written anyway"),

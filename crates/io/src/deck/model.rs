@@ -4,7 +4,8 @@ use super::Compat;
 use super::translation::{Target, Translation, is_truss};
 use crate::case::{
     Amplitude, AtNodes, AtPoint, Body, BodyAxes, Factor, Integration, Locking, MaterialChange,
-    Model, Name, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
+    Model, Name, SetContent, Space, Step, TemperatureAt, Temperatures, Thickness, TimeBase,
+    Unstrained,
 };
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
@@ -18,7 +19,7 @@ struct Section<'s> {
     card: &'s Statement,
     material: &'s str,
     orientation: Option<&'s BodyAxes>,
-    thickness: Option<&'s Spanned<f64>>,
+    thickness: Option<&'s Spanned<Thickness>>,
     /// The set of its elements, if all of this set are.
     set: Option<String>,
 }
@@ -373,12 +374,20 @@ impl Translation<'_> {
                 continue;
             }
             let trusses = sets.iter().any(|set| self.has_trusses(set));
+            let at_nodes = card.get("NODALTHICKNESS").is_some();
             if self.case.model.space.value.has_thickness()
                 && !trusses
                 && let Some(given) = &given
+                && !at_nodes
             {
                 self.case.model.thickness = *thickness.get_or_insert(given.value);
             }
+            let given = match at_nodes {
+                true => Some(Spanned::new(Thickness::Field, card.place.clone())),
+                false => {
+                    given.map(|given| Spanned::new(Thickness::Uniform(given.value), given.place))
+                }
+            };
             for set in sets {
                 let all = self.elements(&Target::Set(set.clone()));
                 let nall = all.len();
@@ -623,16 +632,17 @@ impl Translation<'_> {
     }
 
     /// The thickness of a section, where it is not that of the model.
-    fn thickness(&self, space: Space, section: &Section<'_>) -> Option<Spanned<f64>> {
+    fn thickness(&self, space: Space, section: &Section<'_>) -> Option<Spanned<Thickness>> {
         let model = &self.case.model;
         if !space.has_thickness() {
             return None;
         }
         let given = section.thickness.cloned();
         if model.space.has_thickness() {
-            return given.filter(|given| given.value != model.thickness);
+            let of_model = Thickness::Uniform(model.thickness);
+            return given.filter(|given| given.value != of_model);
         }
-        let one = || Spanned::new(1.0, section.card.place.clone());
+        let one = || Spanned::new(Thickness::Uniform(1.0), section.card.place.clone());
         Some(given.unwrap_or_else(one))
     }
 }

@@ -1,10 +1,11 @@
 //! Elements that have no section, or one that is not theirs; nodes that leave the plane of their elements.
 
-use super::translation::{Translation, is_truss};
+use super::translation::{Target, Translation, is_truss};
+use crate::case::ThicknessAt;
 use crate::diagnostic::{Diagnostic, Place, codes};
 use crate::readers::inp::{Field, Kind, Statement, without_volume};
 use signorini_geometry::mesh::CellId;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// Coordinates across a plane may differ by this part of its size: roundings of decimals.
 const FLAT: f64 = 1e-9;
@@ -143,33 +144,66 @@ impl Translation<'_> {
         false
     }
 
-    /// Thicknesses at nodes count only where a section asks for them, which none that is built does.
+    /// Thickness at nodes, which counts only where a section asks for it.
     pub fn nodal_thickness(&mut self) {
+        let asking = self.nodes_that_ask();
         for card in self.cards("NODALTHICKNESS") {
-            let mut nodes: BTreeSet<u64> = BTreeSet::new();
+            let mut elsewhere: BTreeSet<u64> = BTreeSet::new();
             for row in card.rows().filter(|row| !row.is_empty()) {
-                for target in self.targets(card, row.first(), Kind::Nodes) {
-                    nodes.extend(self.labels(&target));
-                }
+                let targets = self.targets(card, row.first(), Kind::Nodes);
+                let labels = targets.iter().flat_map(|target| self.labels(target));
+                let (counted, others): (Vec<u64>, Vec<u64>) =
+                    labels.partition(|label| asking.contains(label));
+                elsewhere.extend(others);
                 let value = self.real(row.get(1));
-                if value < 0.0 {
+                if value < 0.0 || value == 0.0 && !counted.is_empty() {
                     let text = format!("the thickness of *NODAL THICKNESS is {value}");
                     let place = row.get(1).map_or(card.place.clone(), Field::place);
-                    self.error(&codes::OUT_OF_RANGE, text, &place, "not negative");
+                    self.error(&codes::OUT_OF_RANGE, text, &place, "positive");
+                } else if !counted.is_empty() {
+                    let on = self.named(&targets, &card.place);
+                    self.case.thicknesses.push(ThicknessAt {
+                        on,
+                        value,
+                        place: card.place.clone(),
+                    });
                 }
             }
-            let text = format!(
-                "*NODAL THICKNESS: given for {} whose section does not ask for it",
-                match nodes.len() {
-                    1 => "1 node".to_owned(),
-                    count => format!("{count} nodes"),
-                }
-            );
-            let asks = |card: &Statement| card.peek("NODALTHICKNESS").is_some();
-            if !self.deck.statements.iter().any(asks) {
+            if !elsewhere.is_empty() {
+                let text = format!(
+                    "*NODAL THICKNESS: given for {} whose section does not ask for it",
+                    match elsewhere.len() {
+                        1 => "1 node".to_owned(),
+                        count => format!("{count} nodes"),
+                    }
+                );
                 self.note(text, &card.place);
             }
         }
+    }
+
+    /// The nodes of plane sections that ask for the thickness at nodes.
+    fn nodes_that_ask(&mut self) -> HashSet<u64> {
+        let mut asking = HashSet::new();
+        if self.case.model.space.value.ndim() != 2 {
+            return asking;
+        }
+        for card in self.cards("SOLIDSECTION") {
+            let asks = card.peek("NODALTHICKNESS").is_some();
+            let Some(elset) = card.peek("ELSET").filter(|_| asks) else {
+                continue;
+            };
+            for set in self.sets_of(card, elset) {
+                for label in self.elements(&Target::Set(set)) {
+                    let nodes = self.cell(label).map(|cell| self.deck.mesh.cell(cell));
+                    let labels = nodes.unwrap_or_default().iter();
+                    let labels = labels
+                        .filter_map(|&node| self.deck.mesh.node_labels.get(node as usize).copied());
+                    asking.extend(labels);
+                }
+            }
+        }
+        asking
     }
 
     /// Refuses elements of the plane that are not in one plane of constant z, and notes one that is not z = 0.

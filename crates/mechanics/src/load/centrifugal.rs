@@ -161,12 +161,12 @@ impl Centrifugal {
         let places = if moves { &trial.x[..] } else { &self.reference };
         let projector = self.spin.projector();
         let Scratch { local, reference } = work.of();
-        for (nodes, density) in patch.pieces(first, last) {
-            gather(&self.reference, nodes, reference);
-            local.begin(&self.layout, nodes, places, order);
+        for piece in patch.pieces(first, last) {
+            gather(&self.reference, piece.nodes, reference);
+            local.begin(&self.layout, piece.nodes, places, order);
             let mut half = 0.0;
             for sample in patch.samples() {
-                let weight = square * density * patch.volume(&sample, reference);
+                let weight = square * patch.volume(&piece, &sample, reference);
                 let arm = projector * (sample.position(&local.x) - self.spin.point);
                 half += 0.5 * weight * arm.norm_squared();
                 local.push(sample.shape, arm * -weight);
@@ -198,8 +198,8 @@ impl Term for Centrifugal {
         if self.clock.is_away() {
             return;
         }
-        for (_, nodes, _) in self.cells.pieces() {
-            out.bulk(nodes);
+        for (_, piece) in self.cells.pieces() {
+            out.bulk(piece.nodes);
         }
     }
 

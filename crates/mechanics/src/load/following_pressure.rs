@@ -67,11 +67,11 @@ impl FollowingPressure {
         } else {
             &self.reference
         };
-        for (nodes, factor) in patch.pieces(first, last) {
-            local.begin(&self.layout, nodes, places, order);
+        for piece in patch.pieces(first, last) {
+            local.begin(&self.layout, piece.nodes, places, order);
             for sample in patch.samples() {
                 let (t1, t2) = sample.tangents(patch.space(), &local.x);
-                let weight = pressure * factor * sample.weight;
+                let weight = pressure * sample.weight_in(&piece);
                 local.push(sample.shape, t1.cross(t2) * weight);
                 if order == Order::Residual || !follows {
                     continue;
@@ -107,8 +107,8 @@ impl Term for FollowingPressure {
         if self.clock.is_away() {
             return;
         }
-        for (_, nodes, _) in self.faces.pieces() {
-            out.bulk(nodes);
+        for (_, piece) in self.faces.pieces() {
+            out.bulk(piece.nodes);
         }
     }
 

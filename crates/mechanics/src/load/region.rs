@@ -25,6 +25,16 @@ pub(super) struct Patch {
     nodes: Vec<NodeId>,
     /// What the measure of each piece is multiplied by.
     factors: Vec<f64>,
+    /// What it is multiplied by at the nodes of each piece, besides; empty where that is 1.
+    profiles: Vec<f64>,
+}
+
+/// A face or a cell.
+#[derive(Clone, Copy)]
+pub(super) struct Piece<'a> {
+    pub nodes: &'a [NodeId],
+    factor: f64,
+    profile: &'a [f64],
 }
 
 /// A quadrature point of a reference element.
@@ -37,20 +47,24 @@ pub(super) struct Sample<'a> {
 impl Region {
     /// Adds a face or a cell. Its measure counts `factor` times: the cross-section of a bar, a density.
     pub fn push(&mut self, element: Element, space: Idealisation, nodes: &[NodeId], factor: f64) {
-        self.push_by((element, element.surface_rule()), space, nodes, factor);
+        let rule = element.surface_rule();
+        self.push_by((element, rule), (space, None), nodes, factor);
     }
 
-    /// The same, integrated by this rule.
+    /// The same, integrated by this rule, with what the thickness is multiplied by at every node of the mesh; none: 1.
     pub fn push_by(
         &mut self,
         (element, rule): (Element, &'static Rule),
-        space: Idealisation,
+        (space, profile): (Idealisation, Option<&[f64]>),
         nodes: &[NodeId],
         factor: f64,
     ) {
         debug_assert_eq!(nodes.len(), element.nnode());
-        let alike =
-            |p: &Patch| *p.element == *element && std::ptr::eq(p.rule, rule) && p.space == space;
+        let alike = |p: &Patch| {
+            let has_profile = !p.profiles.is_empty();
+            let alike = *p.element == *element && std::ptr::eq(p.rule, rule) && p.space == space;
+            alike && has_profile == profile.is_some()
+        };
         let at = self.patches.iter().position(alike).unwrap_or_else(|| {
             self.patches.push(Patch::new(element, rule, space));
             self.patches.len() - 1
@@ -58,6 +72,10 @@ impl Region {
         let patch = &mut self.patches[at];
         patch.nodes.extend_from_slice(nodes);
         patch.factors.push(factor);
+        if let Some(profile) = profile {
+            let at = |&node: &NodeId| profile.get(node as usize).copied().unwrap_or(1.0);
+            patch.profiles.extend(nodes.iter().map(at));
+        }
     }
 
     /// Whether nothing is in it.
@@ -82,12 +100,11 @@ impl Region {
         self.patches.iter().enumerate().flat_map(of_patch).collect()
     }
 
-    /// Nodes, quadrature points and factor of every piece.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = (&Patch, &[NodeId], f64)> {
+    /// Every piece, with its quadrature points.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (&Patch, Piece<'_>)> {
         self.patches.iter().flat_map(|patch| {
-            let nodes = patch.nodes.chunks_exact(patch.nnode());
-            let factors = patch.factors.iter();
-            nodes.zip(factors).map(move |(n, &f)| (patch, n, f))
+            let pieces = patch.pieces(0, patch.npiece());
+            pieces.map(move |piece| (patch, piece))
         })
     }
 }
@@ -110,6 +127,7 @@ impl Patch {
             dshape,
             nodes: Vec::new(),
             factors: Vec::new(),
+            profiles: Vec::new(),
         }
     }
 
@@ -125,11 +143,19 @@ impl Patch {
         self.factors.len()
     }
 
-    /// Nodes of some of its pieces, and their factors.
-    pub fn pieces(&self, first: usize, last: usize) -> impl Iterator<Item = (&[NodeId], f64)> {
+    /// Some of its pieces.
+    pub fn pieces(&self, first: usize, last: usize) -> impl Iterator<Item = Piece<'_>> {
         let n = self.nnode();
         let nodes = self.nodes[first * n..last * n].chunks_exact(n);
-        nodes.zip(self.factors[first..last].iter().copied())
+        let numbered = nodes.zip(&self.factors[first..last]).zip(first..);
+        numbered.map(move |((nodes, &factor), piece)| Piece {
+            nodes,
+            factor,
+            profile: self
+                .profiles
+                .get(piece * n..(piece + 1) * n)
+                .unwrap_or_default(),
+        })
     }
 
     pub fn samples(&self) -> impl Iterator<Item = Sample<'_>> {
@@ -145,19 +171,32 @@ impl Patch {
     }
 
     /// dV of a cell at a quadrature point, from the positions of its nodes: a volume, in the plane an area times its
-    /// extent, of a bar a length.
-    pub fn volume(&self, sample: &Sample<'_>, x: &[Vec3]) -> f64 {
+    /// extent, of a bar a length; times the factors of the piece.
+    pub fn volume(&self, piece: &Piece<'_>, sample: &Sample<'_>, x: &[Vec3]) -> f64 {
         let t = |a| sample.tangent(x, a);
         let measure = match self.element.dim() {
             3 => t(0).cross(t(1)).dot(t(2)),
             2 => t(0).cross(t(1)).z * self.space.extent(sample.position(x)),
             _ => t(0).norm(),
         };
-        measure * sample.weight
+        measure * sample.weight_in(piece)
     }
 }
 
 impl Sample<'_> {
+    /// Quadrature weight, times what the measure of a piece is multiplied by here.
+    pub fn weight_in(&self, piece: &Piece<'_>) -> f64 {
+        let here = |profile: &[f64]| -> f64 {
+            let at_nodes = profile.iter().zip(self.shape);
+            at_nodes.map(|(p, n)| p * n).sum()
+        };
+        let along = match piece.profile {
+            [] => 1.0,
+            profile => here(profile),
+        };
+        self.weight * piece.factor * along
+    }
+
     pub fn position(&self, x: &[Vec3]) -> Vec3 {
         x.iter().zip(self.shape).map(|(x, n)| *x * *n).sum()
     }

@@ -41,11 +41,11 @@ pub fn over_faces(
 pub fn over_cells(cells: &Region, reference: &[Vec3], force: Vec3) -> NodalVectors {
     let mut out = NodalVectors::new();
     let mut x = Vec::new();
-    for (patch, nodes, factor) in cells.pieces() {
-        gather(reference, nodes, &mut x);
+    for (patch, piece) in cells.pieces() {
+        gather(reference, piece.nodes, &mut x);
         for sample in patch.samples() {
-            let measure = factor * patch.volume(&sample, &x);
-            add(&mut out, nodes, sample.shape, force * measure);
+            let measure = patch.volume(&piece, &sample, &x);
+            add(&mut out, piece.nodes, sample.shape, force * measure);
         }
     }
     out
@@ -85,11 +85,12 @@ pub(super) fn each_area(
     mut take: impl FnMut(&[NodeId], &[f64], Vec3),
 ) {
     let mut x = Vec::new();
-    for (patch, nodes, factor) in faces.pieces() {
-        gather(places, nodes, &mut x);
+    for (patch, piece) in faces.pieces() {
+        gather(places, piece.nodes, &mut x);
         for sample in patch.samples() {
             let (t1, t2) = sample.tangents(patch.space(), &x);
-            take(nodes, sample.shape, t1.cross(t2) * (factor * sample.weight));
+            let directed = t1.cross(t2) * sample.weight_in(&piece);
+            take(piece.nodes, sample.shape, directed);
         }
     }
 }

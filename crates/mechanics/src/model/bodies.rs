@@ -219,6 +219,7 @@ impl Context<'_> {
                 BodyKind::Solid {
                     material,
                     later,
+                    profile,
                     integration,
                     locking,
                     linear_temperatures,
@@ -234,6 +235,7 @@ impl Context<'_> {
                         cells,
                         layout,
                         space,
+                        profile,
                         material,
                         integration,
                         locking,
@@ -241,7 +243,7 @@ impl Context<'_> {
                         linear_temperatures,
                         at_nodes,
                         initial: &initial,
-                        axes,
+                        axes: axes.map(|axes| *axes),
                     })?;
                     solid.set_activity(self.activity.clone());
                     for (step, material) in later {

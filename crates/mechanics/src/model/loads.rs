@@ -260,14 +260,16 @@ impl Context<'_> {
     fn faces(&self, faces: &[Face]) -> Result<Region, LoadError> {
         let mut region = Region::default();
         for &face in &set(faces) {
-            let space = self.body(face.cell)?.space;
+            let body = self.body(face.cell)?;
             let side = self.mesh.face(face);
             let side = side.filter(|(e, _)| e.dim() + 1 == self.layout.ndim());
             let (element, nodes) = side.ok_or_else(|| LoadError::NoFace {
                 element: self.number(face.cell),
                 side: usize::from(face.side) + 1,
             })?;
-            region.push(element, space, &nodes, 1.0);
+            let rule = element.surface_rule();
+            let across = (body.space, body.profile.as_deref());
+            region.push_by((element, rule), across, &nodes, 1.0);
         }
         some(region)
     }
@@ -295,7 +297,8 @@ impl Context<'_> {
                 Integration::Full | Integration::Raised => element.surface_rule(),
                 Integration::Reduced => element.reduced_rule(),
             };
-            region.push_by((element, rule), body.space, self.mesh.cell(cell), factor);
+            let across = (body.space, body.profile.as_deref());
+            region.push_by((element, rule), across, self.mesh.cell(cell), factor);
         }
         some(region)
     }

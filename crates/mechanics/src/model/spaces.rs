@@ -4,7 +4,9 @@ use super::BodyPart;
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets};
+use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// What the cells of a plane model stand for, body by body.
 pub(super) struct Spaces<'a> {
@@ -13,6 +15,8 @@ pub(super) struct Spaces<'a> {
     common: Idealisation,
     /// That of each body.
     own: Vec<Idealisation>,
+    /// The profile of each body, where it has one.
+    profiles: Vec<Option<Arc<[f64]>>>,
     /// The body of each node.
     body_of_node: &'a [u32],
 }
@@ -25,10 +29,12 @@ impl<'a> Spaces<'a> {
         bodies: &[BodyPart],
     ) -> Self {
         let own = bodies.iter().map(|body| body.kind.space(common));
+        let profiles = bodies.iter().map(|body| body.kind.profile().cloned());
         Self {
             owner,
             common,
             own: own.collect(),
+            profiles: profiles.collect(),
             body_of_node,
         }
     }
@@ -44,23 +50,60 @@ impl<'a> Spaces<'a> {
         body.map_or(self.common, |&body| self.of_body(body))
     }
 
-    /// Of the body that a node is in; that of the model where none is.
-    pub fn of_node(&self, node: NodeId) -> Idealisation {
+    /// The extent at a node of a body; in the plane of the model where none has the node.
+    pub fn extent_of_node(&self, node: NodeId, at: Vec3) -> f64 {
         let body = self.body_of_node.get(node as usize);
-        body.map_or(self.common, |&body| self.of_body(body as usize))
+        let body = body.map_or(usize::MAX, |&body| body as usize);
+        self.of_body(body).extent(at) * self.profile_at(body, node)
+    }
+
+    /// What the thickness of a body is multiplied by at a node.
+    fn profile_at(&self, body: usize, node: NodeId) -> f64 {
+        let profile = self.profiles.get(body).and_then(Option::as_deref);
+        profile.map_or(1.0, |of| of.get(node as usize).copied().unwrap_or(1.0))
     }
 
     /// Of all cells behind facets, where it is the same.
     pub fn alike(&self, facets: &Facets) -> Option<Idealisation> {
-        let all = self.behind(facets);
+        let all = self.behind(facets).spaces;
         let first = *all.first()?;
         all.iter().all(|one| *one == first).then_some(first)
     }
 
     /// Of the cells behind facets.
-    pub fn behind(&self, facets: &Facets) -> Vec<Idealisation> {
-        let of = |facet| facets.face(facet).map(|face| self.of_cell(face.cell));
-        let facets = 0..facets.nfacet() as u32;
-        facets.map(|f| of(f).unwrap_or(self.common)).collect()
+    pub fn behind(&self, facets: &Facets) -> Extents {
+        let mut extents = Extents::default();
+        for facet in 0..facets.nfacet() as u32 {
+            let body = facets.face(facet);
+            let body = body.and_then(|face| self.owner.get(&face.cell));
+            let body = body.map_or(usize::MAX, |&body| body);
+            extents.spaces.push(self.of_body(body));
+            if self.profiles.iter().any(Option::is_some) {
+                let nodes = facets.nodes(facet).iter();
+                let at_nodes = nodes.map(|&node| self.profile_at(body, node));
+                extents.profiles.push(at_nodes.collect());
+            }
+        }
+        extents
+    }
+}
+
+/// What the plane stands for behind facets.
+#[derive(Default)]
+pub(super) struct Extents {
+    /// Of each facet.
+    pub spaces: Vec<Idealisation>,
+    /// What the thickness is multiplied by at the nodes of each facet; empty where it is 1 everywhere.
+    profiles: Vec<Vec<f64>>,
+}
+
+impl Extents {
+    /// The extent across a facet where its nodes have these shape functions, at a position.
+    pub fn at(&self, facet: u32, shape: &[f64], at: Vec3) -> f64 {
+        let space = self.spaces.get(facet as usize);
+        let extent = space.map_or(1.0, |space| space.extent(at));
+        let profile = self.profiles.get(facet as usize);
+        let factor = profile.map_or(1.0, |of| of.iter().zip(shape).map(|(p, n)| p * n).sum());
+        extent * factor
     }
 }

@@ -3,6 +3,7 @@
 use super::{BodyKind, BodyPart};
 use crate::solid::Integration;
 use crate::system::Idealisation;
+use std::sync::Arc;
 
 /// What loads want to know of a body.
 pub(super) struct Substance {
@@ -12,6 +13,8 @@ pub(super) struct Substance {
     pub section: Option<f64>,
     pub integration: Integration,
     pub space: Idealisation,
+    /// What the thickness is multiplied by at nodes.
+    pub profile: Option<Arc<[f64]>>,
 }
 
 impl Substance {
@@ -22,6 +25,7 @@ impl Substance {
             section: None,
             integration: Integration::Full,
             space: body.kind.space(of_model),
+            profile: body.kind.profile().cloned(),
         };
         match body.kind {
             BodyKind::Solid {

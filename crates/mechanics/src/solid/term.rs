@@ -29,6 +29,8 @@ pub struct Solid {
     linear: Vec<bool>,
     pub(super) kinematics: Kinematics,
     pub(super) space: Idealisation,
+    // what the thickness is multiplied by at every node of the mesh; none: 1
+    profile: Option<Arc<[f64]>>,
     pub(super) temperature: Option<Arc<NodalField>>,
     pub(super) step: StepContext,
     pub(super) blocks: Vec<Cells>,
@@ -54,6 +56,8 @@ pub struct SolidParts<'a> {
     pub layout: Layout,
     /// Space, plane or axisymmetry.
     pub space: Idealisation,
+    /// What the thickness is multiplied by at every node of the mesh; none: 1.
+    pub profile: Option<Arc<[f64]>>,
     /// What it is made of: the law for three dimensions, in every space.
     pub material: Box<dyn Material>,
     /// Full or reduced integration.
@@ -78,6 +82,7 @@ pub struct SolidParts<'a> {
 pub(super) struct Scratch {
     pub x: Vec<Vec3>,
     pub u: Vec<f64>,
+    pub profile: Vec<f64>,
     pub temperature: Vec<f64>,
     pub temperature_at_start: Vec<f64>,
     pub dofs: Vec<Dof>,
@@ -132,6 +137,7 @@ impl Solid {
             cells,
             layout,
             space,
+            profile,
             material,
             integration,
             locking,
@@ -216,6 +222,7 @@ impl Solid {
             linear,
             kinematics: Kinematics::Finite,
             space,
+            profile,
             temperature,
             step: StepContext::default(),
             blocks,
@@ -519,6 +526,7 @@ impl Solid {
             material: self.material(),
             kinematics: self.kinematics,
             space: self.space,
+            profile: &[],
             temperature: &[],
             temperature_at_start: &[],
             ndilatation: block.ndilatation,
@@ -554,6 +562,11 @@ impl Solid {
             });
             self.begin_at(origin, axes);
         }
+        scratch.profile.clear();
+        if let Some(profile) = &self.profile {
+            let at = |&node: &NodeId| profile.get(node as usize).copied().unwrap_or(1.0);
+            scratch.profile.extend(block.nodes_of(cell).iter().map(at));
+        }
         scratch.temperature.clear();
         scratch.temperature_at_start.clear();
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
@@ -561,6 +574,7 @@ impl Solid {
         let element = Element {
             x: &scratch.x,
             u: &scratch.u,
+            profile: &scratch.profile,
             temperature: &scratch.temperature,
             temperature_at_start: &scratch.temperature_at_start,
             ..self.element(block, cell, at)

@@ -183,6 +183,7 @@ fn solid(name: &str, material: fn() -> Box<dyn Material>) -> Specimen {
             cells: &cells,
             layout,
             space: Idealisation::Space,
+            profile: None,
             material: material(),
             integration: Default::default(),
             locking: Locking::None,

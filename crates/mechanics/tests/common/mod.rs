@@ -255,6 +255,7 @@ pub fn solid(name: &str, cells: &[CellId], material: impl Material + 'static) ->
             integration: Integration::Full,
             locking: Locking::Auto,
             space: None,
+            profile: None,
             linear_temperatures: false,
             at_nodes: Default::default(),
             initial: Vec::new(),

@@ -131,9 +131,9 @@ class Body(Table):
         "`\"full\"`, `\"linear\"`",
         default="full",
     )
-    thickness: Key[float | None, float] = Key(
-        "Thickness in a plane model (length); next to bodies of revolution, that of the full circumference; absent: that of the model",
-        "number > 0.0",
+    thickness: Key[float | Literal["field"] | None, float | Literal["field"]] = Key(
+        "Thickness in a plane model (length), or field: that of [[thickness]] at its nodes; next to bodies of revolution, that of the full circumference; absent: that of the model",
+        "number > 0.0 or `\"field\"`",
     )
 
 
@@ -1921,6 +1921,17 @@ class Surface(Table):
     shape: One[SurfaceShape] = One(SurfaceShape, "What it is: one shape with its numbers", "a table")
 
 
+class Thickness(Table):
+    """Thickness at nodes, of plane bodies with thickness = "field"; of several that name a node the last holds.
+
+    TOML: `thickness`.
+    """
+
+    _toml = "thickness"
+    on: Key[str | None, str] = Key("The set or group", "text")
+    value: Key[float | None, float] = Key("The thickness there (length)", "number > 0.0")
+
+
 class CaseTable(Table):
     """A contact problem: geometry, materials, bodies, contacts, and what happens step by step.."""
 
@@ -1985,6 +1996,11 @@ class CaseTable(Table):
         "list of a table",
         key="surface",
     )
+    thickness: Items[Thickness] = Items(
+        Thickness,
+        "Thickness at nodes, of plane bodies with thickness = \"field\"; of several that name a node the last holds",
+        "list of a table",
+    )
     title: Key[str, str] = Key("What the run is about, for reports", "text", default="")
     units: Key[str, str] = Key(
         "Length-force-stress, as in mm-N-MPa: a label for reports and plausibility; nothing is converted",
@@ -2005,7 +2021,7 @@ if TYPE_CHECKING:
         "space": Literal["plane-strain", "plane-stress", "axisymmetric"],
         "strain": Literal["auto", "small"],
         "temperatures": Literal["full", "linear"],
-        "thickness": float,
+        "thickness": float | Literal["field"],
     }, total=False)
     ConstraintKeys = TypedDict("ConstraintKeys", {
         "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],

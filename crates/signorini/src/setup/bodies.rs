@@ -3,13 +3,13 @@
 use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::orientation::{axes, axes_of_no_body, oriented};
-use super::quoted;
+use super::{OwnPlane, quoted};
 use crate::own::Own;
 use crate::text::plural;
 use signorini_geometry::element::LockingClass;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::Sym3;
-use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
+use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures, Thickness};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Plasticity,
@@ -32,6 +32,9 @@ pub(super) fn bodies(
     at_start(case, names, &bodies, found);
     axes_of_no_body(case, names, &bodies, found);
     unchangeable(case, found);
+    if let Some(unused) = unused_thickness(case) {
+        found.push(unused);
+    }
     bodies
 }
 
@@ -137,6 +140,10 @@ fn body_part(
         );
     }
     let cells = solids(cells, body, found);
+    let plane = cells.first().and_then(|&cell| names.own_plane(cell));
+    if let Some(plane) = plane {
+        thick(case, body, (plane, &cells), names, found)?;
+    }
     Some(BodyPart {
         name,
         kind: BodyKind::Solid {
@@ -145,7 +152,8 @@ fn body_part(
             density,
             integration: integration(body.integration),
             locking: locking(body.locking.value),
-            space: super::own_idealisation(&case.model, body),
+            space: plane.map(|plane| plane.space),
+            profile: plane.and_then(|plane| plane.profile.clone()),
             linear_temperatures: body.temperatures == Temperatures::Linear,
             at_nodes: match body.at_nodes {
                 case::AtNodes::Linear => AtNodes::Linear,
@@ -153,12 +161,58 @@ fn body_part(
             },
             initial: initial(case, names, &cells),
             axes: match body.orientation {
-                Some(_) => Some(axes(case, body, names, &cells, found)?),
+                Some(_) => Some(Box::new(axes(case, body, names, &cells, found)?)),
                 None => None,
             },
         },
         cells,
     })
+}
+
+/// A warning of thicknesses at nodes that no body takes.
+fn unused_thickness(case: &Case) -> Option<Diagnostic> {
+    let first = case.thicknesses.first()?;
+    let takes = |body: &Body| {
+        let thickness = body.thickness.as_ref();
+        thickness.is_some_and(|of| of.value == Thickness::Field)
+    };
+    let is_unused = !case.bodies.iter().any(takes);
+    is_unused.then(|| {
+        Diagnostic::warning(
+            &codes::NO_EFFECT,
+            "thicknesses at nodes that change nothing",
+        )
+        .at(&first.place, "no body takes them")
+        .help("write  thickness = \"field\"  in a [[body]]")
+    })
+}
+
+/// Refuses a body that takes its thickness from nodes where one has none.
+fn thick(
+    case: &Case,
+    body: &Body,
+    (plane, cells): (&OwnPlane, &[CellId]),
+    names: &Names<'_>,
+    found: &mut Diagnostics,
+) -> Option<()> {
+    let nodes = names.nodes_around(cells);
+    let (Some(node), Some(thickness)) = (plane.gap(&nodes), &body.thickness) else {
+        return Some(());
+    };
+    let name = quoted(body.groups.first()?);
+    let message = match case.thicknesses.is_empty() {
+        true => format!("{name} takes its thickness from nodes, and the case gives none"),
+        false => format!(
+            "{name} takes its thickness from nodes, and node {} has none",
+            names.label(node)
+        ),
+    };
+    found.push(
+        Diagnostic::error(&codes::MISSING, message)
+            .at(&thickness.place, "")
+            .help("write  [[thickness]] on = , value =  for all of its nodes"),
+    );
+    None
 }
 
 /// The materials that steps give a body, each with the number of the step.

@@ -31,12 +31,12 @@ mod temperature;
 mod tests;
 
 pub(crate) use held::{LISTED, and_so_on, first_step, hold, hold_it};
-use idealisation::{idealisation, own_idealisation};
+use idealisation::{OwnPlane, idealisation};
 pub use info::{ContactInfo, ReferenceInfo};
 pub use mesh::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 pub(crate) use names::quoted;
 pub use prints::{
-    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
+    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedFace, PrintedOf,
 };
 pub use submodel::read_motions_of;
 

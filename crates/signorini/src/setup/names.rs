@@ -1,6 +1,6 @@
 //! What the names of a case stand for in its mesh.
 
-use super::{idealisation, own_idealisation};
+use super::{OwnPlane, idealisation};
 use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary, select};
 use signorini_geometry::surface::Facets;
 use signorini_geometry::tensor::Vec3;
@@ -10,6 +10,7 @@ use signorini_io::readers::side_by_normal;
 use signorini_mechanics::model::SidePart;
 use signorini_mechanics::system::Idealisation;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
 
 /// The name of everything, unless the mesh or the case has something of that name.
 pub(super) const ALL: &str = "all";
@@ -24,7 +25,7 @@ pub(super) struct Names<'a> {
     mesh: &'a Mesh,
     space: Idealisation,
     /// What planes stand for in bodies that differ from the model.
-    planes: HashMap<CellId, Idealisation>,
+    planes: HashMap<CellId, Arc<OwnPlane>>,
     sets: BTreeMap<String, Set>,
     /// Surfaces, which have neither nodes nor faces.
     surfaces: BTreeSet<String>,
@@ -90,22 +91,41 @@ impl<'a> Names<'a> {
             let set = names.content(part, &cells, found);
             names.sets.insert(part.name.value.clone(), set);
         }
-        names.planes = names.own_planes(case);
+        names.planes = names.own_planes(case, found);
         names
     }
 
     /// What planes stand for in the cells of bodies that say so themselves.
-    fn own_planes(&self, case: &Case) -> HashMap<CellId, Idealisation> {
-        let own = |body| Some((body, own_idealisation(&case.model, body)?));
+    fn own_planes(&self, case: &Case, found: &mut Diagnostics) -> HashMap<CellId, Arc<OwnPlane>> {
+        let thicknesses = self.thicknesses(case, found);
         let mut planes = HashMap::new();
-        for (body, plane) in case.bodies.iter().filter_map(own) {
-            let sets = body
-                .groups
-                .iter()
-                .filter_map(|name| self.sets.get(&name.value));
-            planes.extend(sets.flat_map(|set| &set.cells).map(|cell| (*cell, plane)));
+        for body in &case.bodies {
+            let groups = body.groups.iter();
+            let sets = groups.filter_map(|name| self.sets.get(&name.value));
+            let cells: Vec<CellId> = sets.flat_map(|set| &set.cells).copied().collect();
+            let nodes = self.nodes_around(&cells);
+            if let Some(own) = OwnPlane::new(&case.model, body, &nodes, &thicknesses) {
+                let own = Arc::new(own);
+                planes.extend(cells.into_iter().map(|cell| (cell, Arc::clone(&own))));
+            }
         }
         planes
+    }
+
+    /// The thickness of every node, 0 where the case says nothing; nothing where it says nothing of any.
+    fn thicknesses(&self, case: &Case, found: &mut Diagnostics) -> Vec<f64> {
+        if case.thicknesses.is_empty() {
+            return Vec::new();
+        }
+        let mut thicknesses = vec![0.0; self.mesh.nnode()];
+        for one in &case.thicknesses {
+            for node in self.nodes(&one.on, found).unwrap_or_default() {
+                if let Some(at) = thicknesses.get_mut(node as usize) {
+                    *at = one.value;
+                }
+            }
+        }
+        thicknesses
     }
 
     fn content(
@@ -333,10 +353,12 @@ impl<'a> Names<'a> {
         let even = 1.0 / nodes.len() as f64;
         let areas = self.covering(name, &nodes).and_then(|faces| {
             let facets = Facets::new(self.mesh, &faces).ok()?;
-            let extent = |facet, at| {
-                let face = facets.face(facet);
-                face.map_or(self.space, |face| self.plane(face.cell))
-                    .extent(at)
+            let extent = |facet, shape: &[f64], at| {
+                let plane = facets.face(facet).map(|face| self.own_plane(face.cell));
+                match plane.flatten() {
+                    Some(own) => own.extent(facets.nodes(facet), shape, at),
+                    None => self.space.extent(at),
+                }
             };
             facets.nodal_areas(&self.mesh.points, &extent).ok()
         });
@@ -502,9 +524,21 @@ impl<'a> Names<'a> {
             .then_some(faces)
     }
 
+    /// The nodes of cells, sorted.
+    pub fn nodes_around(&self, cells: &[CellId]) -> Vec<NodeId> {
+        let nodes = cells.iter().flat_map(|&cell| self.mesh.cell(cell));
+        let nodes: BTreeSet<NodeId> = nodes.copied().collect();
+        nodes.into_iter().collect()
+    }
+
     /// What the plane of a cell stands for.
     pub fn plane(&self, cell: CellId) -> Idealisation {
-        self.planes.get(&cell).copied().unwrap_or(self.space)
+        self.own_plane(cell).map_or(self.space, |own| own.space)
+    }
+
+    /// The same, where its body says something of its own.
+    pub fn own_plane(&self, cell: CellId) -> Option<&Arc<OwnPlane>> {
+        self.planes.get(&cell)
     }
 
     /// The nodes of every set.

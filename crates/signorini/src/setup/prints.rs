@@ -9,6 +9,7 @@ use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_mechanics::system::{Idealisation, Wanted};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Tables of one set.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,8 +37,19 @@ pub enum PrintedOf {
     Elements(Vec<CellId>, Vec<ElementQuantity>),
     /// Of contacts.
     Contacts(Vec<PrintedContact>, Vec<ContactQuantity>),
-    /// Of faces, with what the plane stands for at each: the resultant of stresses on all of them.
-    Faces(Vec<(Face, Idealisation)>),
+    /// Of faces: the resultant of stresses on all of them.
+    Faces(Vec<PrintedFace>),
+}
+
+/// A face on which stresses are summed up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrintedFace {
+    /// The face.
+    pub face: Face,
+    /// What the plane stands for there.
+    pub space: Idealisation,
+    /// What its thickness is multiplied by at every node of the mesh; none: 1.
+    pub profile: Option<Arc<[f64]>>,
 }
 
 /// A contact that is printed.
@@ -229,7 +241,14 @@ fn printed(
         }
         PrintOf::Faces => {
             let faces = names.section(on?, found)?;
-            PrintedOf::Faces(faces.iter().map(|f| (*f, names.plane(f.cell))).collect())
+            let of_face = |face: &Face| PrintedFace {
+                face: *face,
+                space: names.plane(face.cell),
+                profile: names
+                    .own_plane(face.cell)
+                    .and_then(|own| own.profile.clone()),
+            };
+            PrintedOf::Faces(faces.iter().map(of_face).collect())
         }
     };
     let axes = match &what {

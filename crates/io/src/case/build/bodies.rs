@@ -247,7 +247,7 @@ impl Builder<'_> {
             ),
             orientation: self.body_axes(&fields),
             space,
-            thickness: fields.number_if("thickness"),
+            thickness: thickness(&fields),
             temperatures: match fields.text("temperatures").value.as_str() {
                 "linear" => Temperatures::Linear,
                 _ => Temperatures::Full,
@@ -648,6 +648,18 @@ fn component_of(word: &str) -> Option<usize> {
 
 /// The names of displacements and rotations, in their order.
 pub(in super::super) const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// The thickness of a body in the plane.
+fn thickness(fields: &Fields<'_>) -> Option<Spanned<Thickness>> {
+    if let Some(word) = fields.text_if("thickness") {
+        return Some(Spanned::new(Thickness::Field, word.place));
+    }
+    let uniform = fields.number_if("thickness")?;
+    Some(Spanned::new(
+        Thickness::Uniform(uniform.value),
+        uniform.place,
+    ))
+}
 
 /// The temperature without thermal strain; that from which expansion counts where nothing is said.
 fn unstrained(fields: Fields<'_>, reference: &Spanned<f64>) -> Spanned<Unstrained> {

@@ -322,6 +322,17 @@ pub(super) fn at_points(fields: Fields<'_>, key: &str) -> Vec<AtPoint> {
     rows.collect()
 }
 
+/// Thickness at nodes.
+pub(super) fn thicknesses_at(root: &Fields<'_>) -> Vec<ThicknessAt> {
+    let tables = root.tables("thickness").into_iter();
+    let at = tables.map(|(fields, place)| ThicknessAt {
+        on: fields.text("on"),
+        value: fields.number("value"),
+        place,
+    });
+    at.collect()
+}
+
 /// Temperatures of parts at the start.
 pub(super) fn temperatures_at(fields: Fields<'_>) -> Vec<TemperatureAt> {
     let tables = fields.tables("at").into_iter();

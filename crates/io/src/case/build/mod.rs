@@ -18,7 +18,7 @@ use super::vocabulary::Vocabulary;
 use crate::diagnostic::{Code, Diagnostics, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
 use builder::Builder;
-use geometry::{at_points, temperatures_at};
+use geometry::{at_points, temperatures_at, thicknesses_at};
 use run::{expectation, output};
 use toml::de::DeTable;
 
@@ -130,6 +130,7 @@ impl Builder<'_> {
                 .into_iter()
                 .map(|(fields, place)| self.constraint(fields, place))
                 .collect(),
+            thicknesses: thicknesses_at(&root),
             initial_temperature: root.table("initial").number_if("temperature"),
             initial_temperatures: temperatures_at(root.table("initial")),
             initial_stress: at_points(root.table("initial"), "stress"),

@@ -155,8 +155,8 @@ pub struct Body {
     pub orientation: Option<BodyAxes>,
     /// What its plane stands for; none: what that of the model does.
     pub space: Option<Spanned<Space>>,
-    /// Thickness in a plane model (length); none: that of the model.
-    pub thickness: Option<Spanned<f64>>,
+    /// Thickness in a plane model; none: that of the model.
+    pub thickness: Option<Spanned<Thickness>>,
     /// How temperatures vary in an element.
     pub temperatures: Temperatures,
     /// How stresses and strains at points are carried to nodes.
@@ -169,6 +169,26 @@ pub struct Body {
     pub rigid: bool,
     /// The reference a rigid body moves with; none: a point of its own, in the mean of its nodes.
     pub reference: Option<Name>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// The thickness of a body in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Thickness {
+    /// The same everywhere (length).
+    Uniform(f64),
+    /// That of each node: see [`ThicknessAt`].
+    Field,
+}
+
+/// The thickness at some nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThicknessAt {
+    /// The nodes.
+    pub on: Name,
+    /// Their thickness (length).
+    pub value: f64,
     /// Where it was written.
     pub place: Place,
 }

@@ -51,6 +51,8 @@ pub struct Case {
     pub orientations: Vec<NamedOrientation>,
     /// Which groups are solids, bars or rigid tools.
     pub bodies: Vec<Body>,
+    /// Thickness at nodes, of plane bodies that take it; of several that name a node the last holds.
+    pub thicknesses: Vec<ThicknessAt>,
     /// Springs.
     pub springs: Vec<Spring>,
     /// Rigid surfaces without a mesh.

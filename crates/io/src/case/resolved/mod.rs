@@ -14,7 +14,7 @@ use super::vocabulary::Vocabulary;
 use contact::contact;
 use model::{
     body, constraint, initial, local_axes, material, mesh, model, orientation, reference,
-    set_content, spring,
+    set_content, spring, thickness,
 };
 use run::{checkpoint, expectation, output, solver};
 use steps::{amplitude, step};
@@ -60,6 +60,7 @@ fn tree(case: &Case) -> Entries {
             named(&case.orientations, |one| (&one.name, orientation(one))),
         ),
         ("body", tables(&case.bodies, body)),
+        ("thickness", tables(&case.thicknesses, thickness)),
         ("spring", tables(&case.springs, spring)),
         ("surface", tables(&case.surfaces, surface)),
         ("contact", tables(&case.contacts, contact)),

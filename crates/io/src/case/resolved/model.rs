@@ -122,6 +122,10 @@ impl std::fmt::Display for Side {
     }
 }
 
+pub(super) fn thickness(one: &ThicknessAt) -> Entries {
+    vec![("on", (&one.on.value).into()), ("value", one.value.into())]
+}
+
 pub(super) fn initial(case: &Case) -> Entries {
     let row = |at: &AtPoint| {
         let number = [Value::from(at.element), Value::from(at.point)].into_iter();
@@ -264,7 +268,13 @@ pub(super) fn body(body: &Body) -> Entries {
     let space = body.space.as_ref();
     entries.extend(space.map(|space| ("space", space.word().into())));
     let thickness = body.thickness.as_ref();
-    entries.extend(thickness.map(|thickness| ("thickness", thickness.value.into())));
+    entries.extend(thickness.map(|thickness| {
+        let value = match thickness.value {
+            Thickness::Uniform(length) => length.into(),
+            Thickness::Field => "field".into(),
+        };
+        ("thickness", value)
+    }));
     let temperatures = match body.temperatures {
         Temperatures::Full => "full",
         Temperatures::Linear => "linear",

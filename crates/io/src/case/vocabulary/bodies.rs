@@ -115,8 +115,8 @@ pub(super) static BODY: Table = Table {
         ),
         key(
             "thickness",
-            POSITIVE,
-            "thickness in a plane model (length); next to bodies of revolution, that of the full circumference; absent: that of the model",
+            Shape::Either(&[POSITIVE, Shape::Choice(&[word("field")])]),
+            "thickness in a plane model (length), or field: that of [[thickness]] at its nodes; next to bodies of revolution, that of the full circumference; absent: that of the model",
         ),
         key(
             "temperatures",

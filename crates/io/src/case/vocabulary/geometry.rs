@@ -184,6 +184,18 @@ pub(super) static INITIAL: Table = Table {
     rules: &[Rule::AtLeastOne(&["temperature", "at", "stress", "strain"])],
 };
 
+pub(super) static THICKNESS: Table = Table {
+    heading: "[[thickness]]",
+    doc: "thickness at nodes, of plane bodies with thickness = \"field\"; of several that name a node the last holds",
+    keys: &[
+        key("on", Shape::Text, "the set or group")
+            .required()
+            .hints(&["set", "group"]),
+        key("value", POSITIVE, "the thickness there (length)").required(),
+    ],
+    rules: &[],
+};
+
 static INITIAL_AT: Table = Table {
     heading: "[[initial.at]]",
     doc: "temperatures at the start that differ from that of everything; of several that name a node the last holds",

@@ -2,7 +2,7 @@
 
 use super::bodies::{BODY, CONSTRAINT, MATERIAL, NAMED_ORIENTATION, SPRING};
 use super::contact::CONTACT;
-use super::geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET};
+use super::geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET, THICKNESS};
 use super::run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
 use super::steps::{AMPLITUDE, STEP};
 use super::surface::SURFACE;
@@ -27,6 +27,7 @@ pub(super) static CASE: Table = Table {
         key("material", Shape::Named(&MATERIAL), MATERIAL.doc).hints(&["materials"]),
         key("orientation", Shape::Named(&NAMED_ORIENTATION), NAMED_ORIENTATION.doc).hints(&["orientations"]),
         key("body", Shape::Tables(&BODY), BODY.doc).hints(&["bodies", "part", "section"]),
+        key("thickness", Shape::Tables(&THICKNESS), THICKNESS.doc),
         key("surface", Shape::Tables(&SURFACE), SURFACE.doc).hints(&["surfaces"]),
         key("contact", Shape::Tables(&CONTACT), CONTACT.doc).hints(&["contacts", "pair", "interface"]),
         key("spring", Shape::Tables(&SPRING), SPRING.doc).hints(&["springs"]),

@@ -3,7 +3,7 @@
 use super::Translation;
 use crate::case::{
     AtNodes, Body, Constant, Constraint, ConstraintKind, Directions, Fix, Hardening, Integration,
-    Locking, Material, Model, Plasticity, Space, Summand, Temperatures,
+    Locking, Material, Model, Plasticity, Space, Summand, Temperatures, Thickness,
 };
 use crate::deck::Compat;
 use crate::diagnostic::{Place, Spanned, codes};
@@ -398,7 +398,7 @@ impl Translation {
     }
 
     /// The thickness of plane elements; none where it is that of the model.
-    fn thickness(&mut self, group: &Group, section: Section) -> Option<Spanned<f64>> {
+    fn thickness(&mut self, group: &Group, section: Section) -> Option<Spanned<Thickness>> {
         if !self.case.model.space.has_thickness() || group.kind.family == Family::Bar {
             return None;
         }
@@ -407,7 +407,7 @@ impl Translation {
             self.case.model.thickness = section.thickness;
         }
         let differs = section.thickness != self.case.model.thickness;
-        differs.then(|| Spanned::from(section.thickness))
+        differs.then(|| Spanned::from(Thickness::Uniform(section.thickness)))
     }
 
     fn locking(&self, group: &Group) -> Locking {

@@ -1,7 +1,7 @@
 //! Materials and their constants.
 
 use super::*;
-use crate::case::Unstrained;
+use crate::case::{Thickness, Unstrained};
 
 #[test]
 fn stiffnesses_of_an_orthotropic_law_become_its_moduli() {
@@ -226,7 +226,7 @@ fn deformation_plasticity_has_its_five_constants_and_large_strains_with_calculix
 }
 
 #[test]
-fn thicknesses_at_nodes_that_no_section_asks_for_are_noted() {
+fn thicknesses_at_nodes_count_where_sections_ask_for_them() {
     let plane = "*NODE, NSET=N\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT, TYPE=CPS4, ELSET=E\n1,1,2,3,4\n\
                  *MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n1.\n\
                  *NODAL THICKNESS\nN, .1\n1, .2\n*STEP\n*STATIC\n*BOUNDARY\n1,1,2\n*END STEP\n";
@@ -238,8 +238,20 @@ fn thicknesses_at_nodes_that_no_section_asks_for_are_noted() {
     );
     assert_eq!(read.case.model.thickness, 1.0);
     let asked = plane.replace("MATERIAL=M\n1.", "MATERIAL=M, NODAL THICKNESS\n1.");
-    let text = refused(&asked);
-    assert!(text.contains("is not supported"), "{text}");
+    let read = translated(&asked, Compat::None).unwrap();
+    let found = read.found.plain();
+    assert!(!found.contains("does not ask"), "{found}");
+    let body = &read.case.bodies[0];
+    let thickness = body.thickness.as_ref().map(|of| of.value);
+    assert_eq!(thickness, Some(Thickness::Field));
+    let values: Vec<f64> = read.case.thicknesses.iter().map(|one| one.value).collect();
+    assert_eq!(values, [0.1, 0.2]);
+    let other = asked.replace("*NODAL", "*NODE\n5, 2, 0\n*NODAL");
+    let other = other.replace("1, .2\n", "1, .2\n5, .2\n");
+    let found = translated(&other, Compat::None).unwrap().found.plain();
+    assert!(found.contains("given for 1 node whose section"), "{found}");
+    let text = refused(&asked.replace("1, .2", "1, 0."));
+    assert!(text.contains("is 0"), "{text}");
     let text = refused(&plane.replace("N, .1", "N"));
     assert!(text.contains("takes 2 to 3 values"), "{text}");
     let text = refused(&plane.replace("N, .1", "N, -.1"));

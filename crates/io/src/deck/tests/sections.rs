@@ -1,7 +1,7 @@
 //! Elements and sections become bodies and springs.
 
 use super::*;
-use crate::case::{Body, Integration, Locking, Space, SpringEnds, SpringLaw};
+use crate::case::{Body, Integration, Locking, Space, SpringEnds, SpringLaw, Thickness};
 
 #[test]
 fn types_of_elements_say_how_they_are_integrated() {
@@ -26,7 +26,7 @@ fn sections_of_a_plane_model_have_a_thickness_each() {
         .iter()
         .map(|b| b.thickness.as_ref().map(|t| t.value))
         .collect();
-    assert_eq!(own, [None, Some(2.0)]);
+    assert_eq!(own, [None, Some(Thickness::Uniform(2.0))]);
 }
 
 /// A ring next to a sheet; without a thickness a sheet is one thick.
@@ -45,16 +45,17 @@ fn bodies_have_the_plane_that_their_elements_name() {
         case.bodies.iter().map(of).collect()
     };
     let sheet = Some(Space::PlaneStress);
+    let thick = |length: f64| Some(Thickness::Uniform(length));
     assert_eq!(
         own(deck),
-        [(None, None), (sheet, Some(2.0)), (sheet, Some(1.0))]
+        [(None, None), (sheet, thick(2.0)), (sheet, thick(1.0))]
     );
     let flat = deck.replace("CAX4", "CPE4");
     assert_eq!(
         own(&flat),
         [
             (Some(Space::PlaneStrain), None),
-            (None, Some(2.0)),
+            (None, thick(2.0)),
             (None, None)
         ]
     );

@@ -339,7 +339,7 @@ mod tests {
         moved[nsecondary..].iter_mut().for_each(|x| x.x += 0.1);
         let origins = rows.renew(&pair, &moved).unwrap();
         let now = rows.on_facets().unwrap().to_vec();
-        let areas = areas_inside(&secondary, &now, &moved, &|_, _| 1.0).unwrap();
+        let areas = areas_inside(&secondary, &now, &moved, &|_, _, _| 1.0).unwrap();
         assert!((areas.iter().sum::<f64>() - 1.0).abs() < 1e-13);
         for (row, (point, origin)) in now.iter().zip(&origins).enumerate() {
             let origin = before[origin.unwrap() as usize];

@@ -15,7 +15,7 @@ use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
-    ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
+    ContactSurface, Extent, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
 };
 use signorini_geometry::tensor::Vec3;
 
@@ -41,7 +41,7 @@ pub fn areas_inside(
     facets: &Facets,
     points: &[OnFacet],
     x: &[Vec3],
-    extent: &dyn Fn(u32, Vec3) -> f64,
+    extent: &Extent<'_>,
 ) -> Result<Vec<f64>, SurfaceError> {
     let area = |point: &OnFacet| {
         let (shape, area) = facets.sample(x, point.facet, point.xi)?;
@@ -49,7 +49,7 @@ pub fn areas_inside(
         let at: Vec3 = nodes
             .map(|(&n, w)| x.get(n as usize).copied().unwrap_or_default() * w)
             .sum();
-        Ok(point.weight * area * extent(point.facet, at))
+        Ok(point.weight * area * extent(point.facet, &shape, at))
     };
     points.iter().map(area).collect()
 }

@@ -309,7 +309,7 @@ fn rows_of(
             let mut inside = PointToSegment::inside(facets, rule);
             inside.closest = closest;
             let points = inside.on_facets().unwrap();
-            area = areas_inside(facets, points, at.x, &|_, _| 1.0).unwrap();
+            area = areas_inside(facets, points, at.x, &|_, _, _| 1.0).unwrap();
             Box::new(inside)
         }
         _ => {

@@ -13,9 +13,9 @@ fn measure(single: &Single) -> (f64, Vec3) {
     let mut sum = (0.0, Vec3::ZERO);
     let mut region = Region::default();
     region.push(single.element, space, single.mesh.cell(single.cell), 1.0);
-    for (patch, _, _) in region.pieces() {
+    for (patch, piece) in region.pieces() {
         for sample in patch.samples() {
-            let dv = patch.volume(&sample, &single.reference);
+            let dv = patch.volume(&piece, &sample, &single.reference);
             sum.0 += dv;
             sum.1 += sample.position(&single.reference) * dv;
         }
@@ -59,7 +59,7 @@ fn masses_are_integrated_by_the_rule_that_they_are_given() {
         let mut region = Region::default();
         region.push_by(
             (element, rule),
-            single.space,
+            (single.space, None),
             single.mesh.cell(single.cell),
             2.0,
         );

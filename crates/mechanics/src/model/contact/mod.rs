@@ -283,7 +283,7 @@ impl Context<'_> {
             return length * length;
         }
         let at = |n: &NodeId| self.reference.get(*n as usize).copied();
-        let extent = |n: &NodeId| Some(self.spaces.of_node(*n).extent(at(n)?));
+        let extent = |n: &NodeId| Some(self.spaces.extent_of_node(*n, at(n)?));
         let extents = points.iter().filter_map(extent);
         length * extents.sum::<f64>() / points.len().max(1) as f64
     }

@@ -17,7 +17,7 @@ use crate::model::{
     AreaPart, ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind,
     PointRule, PrimaryPart, SidePart,
 };
-use areas::{extent, measure, mortar_areas, no_dual};
+use areas::{measure, mortar_areas, no_dual};
 use rows::Pass;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, SurfaceError};
@@ -261,7 +261,7 @@ impl Sides {
         let Some(facets) = &self.facets else {
             return Ok(());
         };
-        let spaces = spaces.behind(facets);
+        let extents = spaces.behind(facets);
         let area = |anchor: Anchor| -> Result<f64, SurfaceError> {
             let Anchor { facet, local } = anchor;
             let (shape, per_parameter) = facets.sample(x, facet, local)?;
@@ -269,7 +269,7 @@ impl Sides {
             let at = nodes.map(|(&n, w)| x.get(n as usize).copied().unwrap_or_default() * w);
             let rule = facets.element(facet).map(|element| element.surface_rule());
             let domain: f64 = rule.map_or(0.0, |rule| rule.weights.iter().sum());
-            Ok(per_parameter * domain * extent(&spaces, facet, at.sum()))
+            Ok(per_parameter * domain * extents.at(facet, &shape, at.sum()))
         };
         let met = found.pairs.iter().flatten();
         let areas = met.map(|pair| area(pair.anchor));
@@ -302,12 +302,12 @@ impl Sides {
             return Ok(());
         };
         let primary = self.pair.primary.as_ref();
-        let Some(&space) = spaces.behind(facets).first() else {
+        let Some(&space) = spaces.behind(facets).spaces.first() else {
             return Ok(());
         };
         let mortar = Mortar::new(facets, primary, form, measure(space), at.x)?
             .held_at(&self.pair, at, share)?;
-        self.area = mortar_areas(&mortar, at.x, space);
+        self.area = mortar_areas(&mortar, at.x, space, spaces);
         self.discretization = Box::new(mortar);
         Ok(())
     }

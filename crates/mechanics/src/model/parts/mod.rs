@@ -13,6 +13,7 @@ use crate::system::{CellChange, Idealisation};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
+use std::sync::Arc;
 
 /// Everything a model is made of.
 pub struct Parts<'a> {
@@ -94,6 +95,8 @@ pub enum BodyKind {
         /// idealisation of two dimensions. Thicknesses in a model with bodies of revolution are those of the full
         /// circumference.
         space: Option<Idealisation>,
+        /// What its thickness is multiplied by at every node of the mesh, interpolated as displacements are; none: 1.
+        profile: Option<Arc<[f64]>>,
         /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are.
         linear_temperatures: bool,
         /// How stresses and strains at points are carried to nodes.
@@ -101,7 +104,7 @@ pub enum BodyKind {
         /// Stress and strain at the start.
         initial: Vec<AtStart>,
         /// Axes of a material that takes those of points; none: those of the frame.
-        axes: Option<MaterialAxes>,
+        axes: Option<Box<MaterialAxes>>,
     },
     /// Bars that carry normal force only: cells of lines.
     Truss {
@@ -129,6 +132,7 @@ impl BodyKind {
             integration: Integration::default(),
             locking: Locking::default(),
             space: None,
+            profile: None,
             linear_temperatures: false,
             at_nodes: AtNodes::default(),
             initial: Vec::new(),
@@ -142,6 +146,15 @@ impl BodyKind {
         match self {
             Self::Solid { space, .. } => space.unwrap_or(of_model),
             Self::Truss { .. } | Self::Rigid(_) => of_model,
+        }
+    }
+
+    /// What its thickness is multiplied by at every node of the mesh, where it is not 1.
+    #[must_use]
+    pub fn profile(&self) -> Option<&Arc<[f64]>> {
+        match self {
+            Self::Solid { profile, .. } => profile.as_ref(),
+            Self::Truss { .. } | Self::Rigid(_) => None,
         }
     }
 

@@ -14,6 +14,8 @@ pub(in crate::solid) struct Element<'a> {
     pub material: &'a dyn Material,
     pub kinematics: Kinematics,
     pub space: Idealisation,
+    /// What the thickness is multiplied by at the nodes; empty: 1.
+    pub profile: &'a [f64],
     /// Temperatures of the nodes; empty where there are none.
     pub temperature: &'a [f64],
     /// What they were at the start of the run.
@@ -26,6 +28,19 @@ pub(in crate::solid) struct Element<'a> {
     pub initial: &'a [Initial],
     /// Axes of the material: none, those of the cell, or of each point.
     pub axes: &'a [Mat3],
+}
+
+impl Element<'_> {
+    /// The extent where the nodes have these shape functions, at a position.
+    #[inline]
+    pub fn extent(&self, shape: &[f64], at: Vec3) -> f64 {
+        let extent = self.space.extent(at);
+        if self.profile.is_empty() {
+            return extent;
+        }
+        let at_nodes = self.profile.iter().zip(shape);
+        extent * at_nodes.map(|(p, n)| p * n).sum::<f64>()
+    }
 }
 
 /// What a point has at the start.

@@ -64,7 +64,7 @@ pub(super) fn place<const NN: usize, const ND: usize, const NG: usize>(
             to[ND] = n / at.x;
         }
     }
-    let weight = points.rule.weights[point] * det * element.space.extent(at);
+    let weight = points.rule.weights[point] * det * element.extent(points.shape(point), at);
     Ok(Place { gradient, weight })
 }
 

@@ -182,7 +182,7 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
     let centre = jacobian::<ND>(&element.x[..NN], &points.dshape_at_centre);
     let (turn, det) = inverse(centre)?;
     let middle = position(element.x, &points.shape_at_centre);
-    let volume = det * element.space.extent(middle);
+    let volume = det * element.extent(&points.shape_at_centre, middle);
     let symmetric = element.material.is_symmetric();
     out.force.fill(0.0);
     out.stiffness.fill(0.0);

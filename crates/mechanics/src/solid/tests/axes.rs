@@ -27,6 +27,7 @@ fn of_law(
         cells: &cells,
         layout: plain.layout,
         space: wish.space,
+        profile: None,
         material,
         integration: wish.integration,
         locking: wish.locking,

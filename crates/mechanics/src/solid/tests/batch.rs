@@ -154,6 +154,7 @@ fn every_lane_has_the_history_temperature_and_start_of_its_cell() {
                 cells: &all,
                 layout: plain.layout,
                 space,
+                profile: None,
                 material: Box::new(Hidden { law, is_symmetric }),
                 integration: Integration::Full,
                 locking: Locking::None,

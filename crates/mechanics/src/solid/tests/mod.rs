@@ -120,6 +120,7 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         cells: &cells,
         layout,
         space: wish.space,
+        profile: None,
         material,
         integration: wish.integration,
         locking: wish.locking,

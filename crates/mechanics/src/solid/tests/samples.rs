@@ -148,6 +148,7 @@ fn thermal_growth_is_no_mechanical_strain() {
             cells: &cells,
             layout: plain.layout,
             space,
+            profile: None,
             material: Box::new(law),
             integration: Integration::Full,
             locking: Locking::None,

@@ -51,6 +51,7 @@ fn hexahedra_assembled_per_second() {
             cells: &cells,
             layout,
             space: Idealisation::Space,
+            profile: None,
             material: (TABLE[1].make)(&Constants::elastic(500.0, 0.3)).unwrap(),
             integration: Integration::Full,
             locking,

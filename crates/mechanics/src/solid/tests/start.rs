@@ -24,6 +24,7 @@ fn with(
         cells: &cells,
         layout: plain.layout,
         space: wish.space,
+        profile: None,
         material: Box::new(law),
         integration: wish.integration,
         locking: wish.locking,

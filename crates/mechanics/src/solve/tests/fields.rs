@@ -207,6 +207,7 @@ impl Bar {
             cells: &cells,
             layout,
             space: Idealisation::Space,
+            profile: None,
             material: Box::new(NeoHookean::new(2e5, 0.3)),
             integration: Integration::Full,
             locking: Locking::None,

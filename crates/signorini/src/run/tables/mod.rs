@@ -4,10 +4,11 @@
 mod tests;
 
 use crate::setup::{
-    ContactQuantity, ElementQuantity, Model, NodeQuantity, Printed, PrintedContact, PrintedOf,
+    ContactQuantity, ElementQuantity, Model, NodeQuantity, Printed, PrintedContact, PrintedFace,
+    PrintedOf,
 };
 use signorini_geometry::element::quadrature::Rule;
-use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{Position, Space, Totals};
@@ -17,8 +18,7 @@ use signorini_io::writers::dat::{
 use signorini_mechanics::load::{Region, Section};
 use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{
-    ContactFrame, ContactSample, Footprint, Frame, Idealisation, PointSample, Resultant, RigidBody,
-    SpinFrame,
+    ContactFrame, ContactSample, Footprint, Frame, PointSample, Resultant, RigidBody, SpinFrame,
 };
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
@@ -540,12 +540,14 @@ impl Writer<'_> {
     }
 
     /// What stresses do on faces: in their present places where displacements are large.
-    fn section(&mut self, set: &str, faces: &[(Face, Idealisation)], nonlinear: bool) {
+    fn section(&mut self, set: &str, faces: &[PrintedFace], nonlinear: bool) {
         let (mesh, share) = (&self.tables.mesh, self.tables.share());
         let mut region = Region::default();
-        for &(face, space) in faces {
-            if let Some((element, nodes)) = mesh.face(face) {
-                region.push(element, space, &nodes, 1.0);
+        for of in faces {
+            if let Some((element, nodes)) = mesh.face(of.face) {
+                let rule = element.surface_rule();
+                let across = (of.space, of.profile.as_deref());
+                region.push_by((element, rule), across, &nodes, 1.0);
             }
         }
         let mut places = mesh.points.clone();

@@ -2,6 +2,7 @@
 
 use crate::contact::discretization::Mortar;
 use crate::contact::mortar;
+use crate::model::spaces::Spaces;
 use crate::system::Idealisation;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets};
@@ -14,15 +15,21 @@ pub(super) fn no_dual(facets: &Facets) -> Option<u32> {
 }
 
 /// Areas of mortar rows, with the thickness of the plane.
-pub(super) fn mortar_areas(mortar: &Mortar, x: &[Vec3], space: Idealisation) -> Vec<f64> {
-    let nodes = mortar.nodes().iter();
-    let at = nodes.map(|&n| x.get(n as usize).copied().unwrap_or_default());
-    let areas = at.zip(mortar.areas());
-    let thickness = |x| match measure(space) {
-        mortar::Measure::Flat => space.extent(x),
+pub(super) fn mortar_areas(
+    mortar: &Mortar,
+    x: &[Vec3],
+    space: Idealisation,
+    spaces: &Spaces<'_>,
+) -> Vec<f64> {
+    let thickness = |&node: &NodeId| match measure(space) {
+        mortar::Measure::Flat => {
+            let at = x.get(node as usize).copied().unwrap_or_default();
+            spaces.extent_of_node(node, at)
+        }
         mortar::Measure::Revolved => 1.0,
     };
-    areas.map(|(x, area)| area * thickness(x)).collect()
+    let areas = mortar.nodes().iter().zip(mortar.areas());
+    areas.map(|(node, area)| area * thickness(node)).collect()
 }
 
 /// What mortar integrals are taken over.
@@ -40,10 +47,4 @@ pub(super) fn of_points(points: &[NodeId], areas: &[(NodeId, f64)]) -> Vec<f64> 
         found.and_then(|k| areas.get(k)).map_or(0.0, |a| a.1)
     };
     points.iter().map(of).collect()
-}
-
-/// The extent across a facet, from what the planes of all facets stand for.
-pub(super) fn extent(spaces: &[Idealisation], facet: u32, at: Vec3) -> f64 {
-    let space = spaces.get(facet as usize);
-    space.map_or(1.0, |space| space.extent(at))
 }

@@ -133,7 +133,7 @@ impl Source<'_> {
         };
         let mortar = Mortar::new(facets, surface, form, measure(space), self.reference);
         let mortar = mortar.map_err(surface_error)?;
-        let areas = mortar_areas(&mortar, self.reference, space);
+        let areas = mortar_areas(&mortar, self.reference, space, self.spaces);
         let mut areas: Vec<(NodeId, f64)> = mortar.nodes().iter().copied().zip(areas).collect();
         areas.sort_unstable_by_key(|of| of.0);
         let poses = self.elimination.initial_poses();

@@ -1,6 +1,6 @@
 //! The rows of a pass: which points are compared with the primary side, by each method, and the areas that they stand for.
 
-use super::areas::{extent, measure, mortar_areas, no_dual, of_points};
+use super::areas::{measure, mortar_areas, no_dual, of_points};
 use super::source::Source;
 use crate::contact::Areas;
 use crate::contact::discretization::nodes::Nowhere;
@@ -226,9 +226,9 @@ impl<'a> Pass<'a> {
         let start = (rule.cut && !is_present).then(|| reference.to_vec());
         let of_points: Areas = {
             let facets = facets.clone();
-            let spaces = self.source.spaces.behind(&facets);
+            let extents = self.source.spaces.behind(&facets);
             Box::new(move |inside, x| {
-                let across = |facet, x| extent(&spaces, facet, x);
+                let across = |facet, shape: &[f64], x| extents.at(facet, shape, x);
                 let points = inside.capabilities().inside.unwrap_or(&[]);
                 areas_inside(&facets, points, start.as_deref().unwrap_or(x), &across)
             })
@@ -272,7 +272,7 @@ impl<'a> Pass<'a> {
         let mortar = Mortar::new(facets, opposite, form, measure(space), reference)
             .map_err(|source| self.surface_error(source))?;
         Ok(Rows {
-            area: mortar_areas(&mortar, reference, space),
+            area: mortar_areas(&mortar, reference, space, self.source.spaces),
             areas: None,
             discretization: Box::new(mortar),
         })
@@ -314,8 +314,8 @@ impl<'a> Pass<'a> {
         let Some(facets) = around else {
             return Ok(Vec::new());
         };
-        let spaces = self.source.spaces.behind(&facets);
-        let across = |facet, x| extent(&spaces, facet, x);
+        let extents = self.source.spaces.behind(&facets);
+        let across = |facet, shape: &[f64], x| extents.at(facet, shape, x);
         let areas = facets.lumped_areas(self.source.reference, &across);
         let areas = areas.map_err(|source| self.surface_error(source))?;
         Ok(of_points(points, &areas))
@@ -327,10 +327,11 @@ impl<'a> Pass<'a> {
         if self.part.area != AreaPart::Present {
             return None;
         }
-        let spaces = self.source.spaces.behind(&facets);
+        let extents = self.source.spaces.behind(&facets);
         let points = points.to_vec();
         Some(Box::new(move |_, x| {
-            let areas = facets.lumped_areas(x, &|facet, x| extent(&spaces, facet, x))?;
+            let across = |facet, shape: &[f64], x| extents.at(facet, shape, x);
+            let areas = facets.lumped_areas(x, &across)?;
             Ok(of_points(&points, &areas))
         }))
     }
