@@ -13,6 +13,7 @@ pub mod contact;
 #[cfg(test)]
 #[path = "../../geometry/src/element/testing.rs"]
 mod cubic;
+pub mod facing;
 pub mod load;
 pub mod material;
 pub mod model;

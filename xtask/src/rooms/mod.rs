@@ -83,6 +83,7 @@ const ROOMS: [Room; 43] = [
     ),
     room("mechanics::connector", &["mechanics::system", "geometry"]),
     room("mechanics::audit", &["mechanics::system", "geometry"]),
+    room("mechanics::facing", &["geometry"]),
     room(
         "mechanics::contact",
         &["mechanics::system", "mechanics::audit", "geometry"],
