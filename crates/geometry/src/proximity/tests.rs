@@ -512,7 +512,7 @@ fn updates_reuse_their_memory() {
 /// SOURCE: own. GOAL: what building, refitting and asking cost. MESH: 100 000 facets of a wavy sheet.
 #[test]
 #[ignore = "prints times; run it alone with --release --nocapture"]
-fn speed_of_a_hundred_thousand_boxes() {
+fn measure_a_hundred_thousand_boxes() {
     let side = 317;
     let height = |i: usize, j: usize, t: f64| {
         let (x, y) = (i as f64 / side as f64, j as f64 / side as f64);

@@ -288,7 +288,7 @@ fn large_systems_repeat_their_bits_and_show_free_bodies() {
 /// Run with `--ignored --nocapture`: seconds for a block of 50,000 equations.
 #[test]
 #[ignore = "a measurement, not a check"]
-fn timing_of_fifty_thousand_equations() {
+fn measure_fifty_thousand_equations() {
     let clock = std::time::Instant::now;
     for (name, n) in [("block", [25, 25, 25]), ("plate", [73, 73, 3])] {
         let system = clamped_block(n, [1.0; 3]);

@@ -200,10 +200,17 @@ fn of_twenty_bodies_that_only_contact_holds_at_most_one_is_not_solved() {
     assert!(unsolved.len() <= 1, "{}", unsolved.join("\n"));
 }
 
+/// 40 more, or as many as `BODIES_HELD=100` asks for.
 #[test]
-#[ignore = "takes minutes: run by .ci/run"]
-fn of_a_hundred_bodies_that_only_contact_holds_at_least_95_are_solved() {
-    let unsolved = unsolved(1..101);
+#[ignore = "takes a minute: run by .ci/run"]
+fn of_many_more_bodies_that_only_contact_holds_at_least_95_in_100_are_solved() {
+    let asked = std::env::var("BODIES_HELD").unwrap_or_else(|_| "40".into());
+    let count: u64 = asked.parse().unwrap();
+    let unsolved = unsolved(21..21 + count);
     println!("{}", unsolved.join("\n"));
-    assert!(unsolved.len() <= 5, "{}", unsolved.join("\n"));
+    assert!(
+        20 * unsolved.len() as u64 <= count,
+        "{}",
+        unsolved.join("\n")
+    );
 }

@@ -331,7 +331,7 @@ fn fine_rule(element: Element) -> &'static element::quadrature::Rule {
 
 #[test]
 #[ignore = "a survey: prints orders of convergence"]
-fn orders_of_convergence() {
+fn measure_orders_of_convergence() {
     for (name, sizes) in [
         ("quad4", [4, 8, 16]),
         ("tri6", [4, 8, 16]),

@@ -33,7 +33,7 @@ fn block(n: usize) -> Mesh {
 
 #[test]
 #[ignore = "a measurement: prints hexahedra per second on this thread"]
-fn hexahedra_assembled_per_second() {
+fn measure_hexahedra_per_second() {
     let mesh = block(24);
     let cells: Vec<_> = mesh.cells(3).collect();
     let layout = Layout::new(3, mesh.nnode(), 0);

@@ -356,7 +356,7 @@ fn linear_fields_pass_from_one_side_to_the_other_where_surfaces_coincide() {
 
 #[test]
 #[ignore = "a measurement"]
-fn speed() {
+fn measure_mortar() {
     let mut random = Random::new(6);
     let own_kinds = [
         ("line2", 0.0),
