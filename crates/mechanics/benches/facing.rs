@@ -1,5 +1,5 @@
 //! Time of the search for facets that face one another: fifty balls, from 4,800 to 58,800 facets.
-#![allow(clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 #[allow(dead_code)]
 #[path = "../tests/facing/skins.rs"]
