@@ -33,9 +33,11 @@
 //! at the start are none. Cost: n log n when the tree is built, n for each search.
 
 mod find;
+mod meetings;
 mod skin;
 
 pub use find::{Facing, Finder};
+pub use meetings::{Meeting, Standing, meetings, secondary};
 pub use skin::Skin;
 
 /// cos 80°, of the angle between normals up to which facets face one another (E1).

@@ -15,7 +15,7 @@ use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Placement};
 use signorini_geometry::tensor::{Mat3, Vec3};
-use signorini_mechanics::facing::{Facing, Finder, Skin};
+use signorini_mechanics::facing::{Facing, Finder, Meeting, Skin, Standing, meetings, secondary};
 use skins::{Side, Skinned, all};
 use std::collections::BTreeSet;
 
@@ -360,4 +360,143 @@ fn the_thickness_is_that_of_the_body_behind_a_facet() {
             );
         }
     }
+}
+
+/// What bodies meet in a skin.
+fn met(of: &Skinned) -> (Finder, Vec<Meeting>) {
+    let mut finder = finder(of);
+    let found = finder.find(&of.mesh.points, &[]).to_vec();
+    let met = meetings(finder.skin(), &of.mesh.points, &found);
+    (finder, met)
+}
+
+#[test]
+fn bodies_meet_as_they_were_made() {
+    // how many meet, and how many of these meet themselves and are folds
+    let right = [
+        ("two blocks", 1, 0, 0),
+        ("five sheets", 4, 0, 0),
+        ("thin box, lips", 1, 1, 0),
+        ("spring", 1, 1, 0),
+        ("folded sheet", 1, 1, 0),
+        ("convex block", 0, 0, 0),
+        ("bent strip", 0, 0, 0),
+        ("bolted joint", 3, 0, 0),
+        ("balls", 105, 0, 0),
+        ("gears", 1, 0, 0),
+    ];
+    for (of, (name, count, own, folds)) in all().iter().zip(right) {
+        assert_eq!(of.name, name);
+        let (finder, met) = met(of);
+        let is_own = |one: &&Meeting| one.bodies[0] == one.bodies[1];
+        assert_eq!(met.len(), count, "{name}");
+        assert_eq!(met.iter().filter(is_own).count(), own, "{name}");
+        assert_eq!(
+            met.iter().filter(|one| one.is_fold).count(),
+            folds,
+            "{name}"
+        );
+        for one in &met {
+            judge_sides(of, finder.skin(), one);
+        }
+    }
+}
+
+#[test]
+fn a_bore_that_is_narrower_than_its_facets_faces_itself_all_around() {
+    let of = skins::tube();
+    let verdict = judge(&of);
+    assert_eq!((verdict.bad, verdict.missed), (0, 0));
+    let (finder, met) = met(&of);
+    assert_eq!(met.len(), 1);
+    assert!(met[0].is_fold && met[0].live == met[0].sides);
+    assert!(met[0].sides[0] == met[0].sides[1] && met[0].sides[0].len() == 16);
+    judge_sides(&of, finder.skin(), &met[0]);
+}
+
+/// Sides hold what faces the other, go round no edge, and have no facet of both.
+fn judge_sides(of: &Skinned, skin: &Skin, one: &Meeting) {
+    assert!(one.gap[0] <= one.gap[1]);
+    for (number, (live, side)) in one.live.iter().zip(&one.sides).enumerate() {
+        assert!(!live.is_empty() && live.iter().all(|f| side.binary_search(f).is_ok()));
+        for &facet in side {
+            assert_eq!(skin.body()[facet as usize], one.bodies[number]);
+            let normal = skin.middle(&of.mesh.points, facet).1;
+            let smooth = |&next: &u32| {
+                skin.middle(&of.mesh.points, next).1.dot(normal) > 0.866
+                    && (next == facet || skin.touch(next, facet))
+            };
+            assert!(live.iter().any(smooth), "{}: {facet}", of.name);
+        }
+        if !one.is_fold {
+            let shared = |f: &&u32| one.sides[1 - number].contains(f);
+            assert_eq!(side.iter().filter(shared).count(), 0, "{}", of.name);
+        }
+    }
+}
+
+#[test]
+fn the_finer_then_the_softer_then_the_more_convex_side_is_secondary_and_what_is_led_is_primary() {
+    let like = Standing {
+        is_led: false,
+        size: 1.0,
+        modulus: 10.0,
+        bulge: 0.0,
+    };
+    let led = Standing {
+        is_led: true,
+        size: 0.1,
+        ..like
+    };
+    let finer = Standing {
+        size: 0.9,
+        modulus: 20.0,
+        ..like
+    };
+    let softer = Standing {
+        size: 0.97,
+        modulus: 5.0,
+        bulge: -1.0,
+        ..like
+    };
+    let rounder = Standing { bulge: 0.5, ..like };
+    for (one, other) in [
+        (finer, led),
+        (finer, like),
+        (softer, like),
+        (rounder, like),
+        (finer, softer),
+    ] {
+        assert_eq!(secondary([one, other]), 0, "{one:?} {other:?}");
+        assert_eq!(secondary([other, one]), 1, "{one:?} {other:?}");
+    }
+    assert_eq!(secondary([like, like]), 0);
+}
+
+#[test]
+fn balls_are_convex_by_their_curvature_and_holes_hollow() {
+    let balls = skins::balls(2, 8);
+    let (finder, met) = met(&balls);
+    let standing = |side: &[u32]| finder.skin().standing(&balls.mesh.points, side, false, 1.0);
+    for side in &met[0].sides {
+        let bulge = standing(side).bulge;
+        assert!((bulge - 1.0).abs() < 0.1, "{bulge}");
+    }
+    let joint = &all()[7];
+    let mut finder = self::finder(joint);
+    let found = finder.find(&joint.mesh.points, &[]).to_vec();
+    let met = meetings(finder.skin(), &joint.mesh.points, &found);
+    let round = |of: usize, side: usize| {
+        let (skin, x) = (finder.skin(), &joint.mesh.points);
+        let is_round = |f: &&u32| skin.middle(x, **f).1.z.abs() < 0.1;
+        let facets: Vec<u32> = met[of].sides[side]
+            .iter()
+            .filter(is_round)
+            .copied()
+            .collect();
+        skin.standing(x, &facets, false, 1.0).bulge
+    };
+    // plates are the bodies 0 and 1, the bolt is 2; its shank is met by the walls of holes
+    assert_eq!(met[1].bodies, [0, 2]);
+    assert!(round(1, 0) < -0.2 && round(1, 1) > 0.2);
 }

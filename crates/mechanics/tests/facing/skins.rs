@@ -246,6 +246,25 @@ fn folded_sheet() -> Skinned {
     }
 }
 
+/// A narrow tube of long cells.
+pub fn tube() -> Skinned {
+    let mut mesh = Mesh::default();
+    add(&mut mesh, [16, 2, 1], true, everywhere, |[s, r, z]| {
+        let (angle, radius) = (TAU * s, 0.05 + 0.15 * r);
+        Vec3::new(radius * angle.cos(), radius * angle.sin(), z)
+    });
+    Skinned {
+        name: "tube",
+        mesh,
+        may_touch: |a, b| {
+            let is_inside = |side: &Side| side.at.x.hypot(side.at.y) < 0.06;
+            is_inside(a) && is_inside(b)
+        },
+        touches: true,
+        tempts: false,
+    }
+}
+
 fn convex_block() -> Skinned {
     let mut mesh = Mesh::default();
     add(&mut mesh, [14, 14, 14], false, everywhere, |p| {
