@@ -69,8 +69,34 @@ impl Finder {
         &self.skin
     }
 
-    /// All facets with those that they face, sorted, where nodes are at `x` and expected to move by `motion`; nowhere where
+    /// All facets with those that they face, sorted, where nodes are at `x` and expected to move by `motion`; not at all where
     /// that is empty.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::element::by_name;
+    /// use signorini_geometry::mesh::{CellId, Mesh};
+    /// use signorini_geometry::tensor::Vec3;
+    /// use signorini_mechanics::facing::{Finder, Skin};
+    ///
+    /// // two squares, one a tenth above the other
+    /// let mut mesh = Mesh::default();
+    /// for low in [0.0, 1.1] {
+    ///     for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+    ///         mesh.points.push(Vec3::new(x, low + y, 0.0));
+    ///         mesh.node_labels.push(mesh.points.len() as u64);
+    ///     }
+    /// }
+    /// let quad4 = by_name("quad4").ok_or("not in the table")?;
+    /// mesh.push_cell(quad4, &[0, 1, 2, 3], 1);
+    /// mesh.push_cell(quad4, &[4, 5, 6, 7], 2);
+    /// let cells: Vec<CellId> = mesh.cells(2).collect();
+    /// let mut finder = Finder::new(Skin::new(&mesh, &cells, |_| false)?);
+    /// let found = finder.find(&mesh.points, &[]);
+    /// assert_eq!(found.len(), 2); // each faces the other
+    /// assert!(found.iter().all(|one| (one.gap - 0.1).abs() < 1e-12));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn find(&mut self, x: &[Vec3], motion: &[Vec3]) -> &[Facing] {
         let at = Placement { x, poses: &[] };
         let facets = self.skin.facets();
@@ -124,6 +150,9 @@ impl Finder {
         scratch: &mut Scratch,
         found: &mut Vec<Facing>,
     ) {
+        if !self.skin.takes_part(facet) {
+            return;
+        }
         let f = facet as usize;
         let (Some(&size), Some(&thickness)) =
             (self.skin.size().get(f), self.skin.thickness().get(f))
@@ -209,7 +238,8 @@ impl Finder {
         let reach = size + AHEAD * self.relative(facet, other);
         let of_other = self.normal.get(q).copied().unwrap_or_default();
         let deepest = ENTERED * thickness(f).min(thickness(q));
-        normal.dot(of_other) < -FACES && s >= -deepest.min(reach) && s <= reach
+        let may = self.skin.takes_part(other);
+        may && normal.dot(of_other) < -FACES && s >= -deepest.min(reach) && s <= reach
     }
 
     /// v.

@@ -15,10 +15,12 @@ pub struct Skin {
     body: Vec<u32>,
     size: Vec<f64>,
     thickness: Vec<f64>,
+    takes_part: Vec<bool>,
 }
 
 impl Skin {
-    /// The outer faces of these cells, but those that `leaves_out` names. A body is what shares nodes.
+    /// The outer faces of these cells. Those that `leaves_out` names face nothing and stand in the way of lines only. A body
+    /// is what shares nodes.
     ///
     /// # Errors
     /// A face that no surface can be made of.
@@ -27,48 +29,41 @@ impl Skin {
         cells: &[CellId],
         leaves_out: impl Fn(Face) -> bool,
     ) -> Result<Self, FacetsError> {
-        let whole = boundary(mesh, cells.iter().copied());
-        let mut faces = whole.clone();
-        faces.retain(|&face| !leaves_out(face));
+        let faces = boundary(mesh, cells.iter().copied());
         let facets = Facets::new(mesh, &faces)?;
-        let bodies = parts(mesh, cells);
         let mut body_of_node = vec![u32::MAX; mesh.nnode()];
-        for (number, body) in (0..).zip(&bodies) {
+        for (number, body) in (0..).zip(&parts(mesh, cells)) {
             for &node in body.iter().flat_map(|&cell| mesh.cell(cell)) {
                 if let Some(of_node) = body_of_node.get_mut(node as usize) {
                     *of_node = number;
                 }
             }
         }
-        let body_of = |facets: &Facets| -> Vec<u32> {
-            let of = |facet| {
-                let node = facets.nodes(facet).first();
-                node.and_then(|&node| body_of_node.get(node as usize).copied())
-            };
-            let all = 0..facets.nfacet() as u32;
-            all.map(|facet| of(facet).unwrap_or(u32::MAX)).collect()
+        let all = 0..facets.nfacet() as u32;
+        let body_of = |facet| {
+            let node = facets.nodes(facet).first();
+            let body = node.and_then(|&node| body_of_node.get(node as usize).copied());
+            body.unwrap_or(u32::MAX)
         };
+        let body: Vec<u32> = all.clone().map(body_of).collect();
         let at = Placement {
             x: &mesh.points,
             poses: &[],
         };
-        let all = 0..facets.nfacet() as u32;
         let size: Vec<f64> = all.map(|facet| size(&facets, &at, facet)).collect();
-        // lines through a body leave it through faces that are left out, too
-        let around = Facets::new(mesh, &whole)?;
-        let walls = Walls::new(&around, body_of(&around), &at);
-        let body = body_of(&facets);
-        let thickness = (0..).zip(&body).zip(&size);
-        let thickness = thickness.map(|((facet, &body), &size)| {
-            let (from, normal) = middle(&facets, &mesh.points, facet);
-            walls.thickness((from, normal), facets.nodes(facet), body, THICK * size)
-        });
+        let walls = Walls::new(&facets, &body, &at);
+        let mut near = Vec::new();
+        let of_facet = (0..).zip(&size);
+        let thickness =
+            of_facet.map(|(facet, size)| walls.thickness(facet, THICK * size, &mut near));
         let thickness = thickness.collect();
+        let takes_part = faces.iter().map(|&face| !leaves_out(face)).collect();
         Ok(Self {
             facets,
             body,
             size,
             thickness,
+            takes_part,
         })
     }
 
@@ -94,6 +89,12 @@ impl Skin {
     #[must_use]
     pub fn thickness(&self) -> &[f64] {
         &self.thickness
+    }
+
+    /// Whether a facet may face others.
+    #[must_use]
+    pub fn takes_part(&self, facet: u32) -> bool {
+        self.takes_part.get(facet as usize).copied() == Some(true)
     }
 
     /// The middle of a facet, and the normal there of the polygon through its corners.
@@ -138,46 +139,50 @@ impl Skin {
     }
 }
 
-/// All outer faces of bodies, through which lines leave them.
+/// The outer faces of bodies, through which lines leave them.
 struct Walls<'a> {
     facets: &'a Facets,
-    body: Vec<u32>,
-    normal: Vec<Vec3>,
+    body: &'a [u32],
+    /// Middles of facets and normals there.
+    middle: Vec<(Vec3, Vec3)>,
     tree: Bvh,
     at: &'a Placement<'a>,
 }
 
 impl<'a> Walls<'a> {
-    fn new(facets: &'a Facets, body: Vec<u32>, at: &'a Placement<'a>) -> Self {
+    fn new(facets: &'a Facets, body: &'a [u32], at: &'a Placement<'a>) -> Self {
         let all = 0..facets.nfacet() as u32;
         let boxes: Vec<Aabb> = all.clone().map(|f| facets.aabb(at, f)).collect();
         Self {
             facets,
             body,
-            normal: all.map(|f| middle(facets, at.x, f).1).collect(),
+            middle: all.map(|f| middle(facets, at.x, f)).collect(),
             tree: Bvh::build(&boxes),
             at,
         }
     }
 
-    /// How far a line against the normal of a facet with these nodes goes until it leaves the body; infinite beyond `most`.
-    fn thickness(&self, (from, normal): (Vec3, Vec3), nodes: &[u32], body: u32, most: f64) -> f64 {
+    /// How far a line against the normal of a facet goes until it leaves the body; infinite beyond `most`.
+    fn thickness(&self, facet: u32, most: f64, near: &mut Vec<u32>) -> f64 {
+        let Some(&(from, normal)) = self.middle.get(facet as usize) else {
+            return f64::INFINITY;
+        };
         let along = -normal * most;
-        let mut near = Vec::new();
-        self.tree.crossed(from, along, &mut near);
-        let leaves = near.into_iter().filter(|&other| {
-            let of_other = self.normal.get(other as usize);
+        self.tree.crossed(from, along, near);
+        let nodes = self.facets.nodes(facet);
+        let body = |facet: u32| self.body.get(facet as usize);
+        let leaves = near.iter().filter(|&&other| {
+            let of_other = self.middle.get(other as usize);
             let shares = |node: &u32| nodes.contains(node);
-            self.body.get(other as usize) == Some(&body)
-                && of_other.is_some_and(|n| n.dot(normal) < 0.0)
+            body(other) == body(facet)
+                && of_other.is_some_and(|(_, n)| n.dot(normal) < 0.0)
                 && !self.facets.nodes(other).iter().any(shares)
         });
-        let ways = leaves.filter_map(|other| self.facets.crossing(self.at, other, from, along));
+        let ways = leaves.filter_map(|&other| self.facets.crossing(self.at, other, from, along));
         let first = ways.fold(f64::INFINITY, f64::min);
-        if first <= 1.0 {
-            first * most
-        } else {
-            f64::INFINITY
+        match first <= 1.0 {
+            true => first * most,
+            false => f64::INFINITY,
         }
     }
 }

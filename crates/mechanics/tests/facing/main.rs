@@ -12,7 +12,7 @@
 mod skins;
 
 use signorini_geometry::element::by_name;
-use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Placement};
 use signorini_geometry::tensor::{Mat3, Vec3};
 use signorini_mechanics::facing::{Facing, Finder, Meeting, Skin, Standing, meetings, secondary};
@@ -337,6 +337,31 @@ fn sheets_that_overlap_by_less_than_half_their_thickness_face_each_other() {
         }
         assert_eq!(!found.is_empty(), part < 0.5, "{part}");
     }
+}
+
+/// What is left out faces nothing, and hides what is behind it.
+#[test]
+fn a_body_that_is_left_out_stands_in_the_way() {
+    let heights = [[0.0, 0.3], [0.31, 0.36], [0.37, 0.67]];
+    let mut mesh = Mesh::default();
+    for height in heights {
+        skins::slab(&mut mesh, [6, 6, 1], height);
+    }
+    let cells: Vec<CellId> = mesh.cells(3).collect();
+    let number = |left_out: Option<u32>, cells: &[CellId]| {
+        let is_out = |face: Face| left_out == Some(face.cell.index / 36);
+        let mut finder = Finder::new(Skin::new(&mesh, cells, is_out).unwrap());
+        finder.find(&mesh.points, &[]).len()
+    };
+    assert_eq!(number(None, &cells), 4 * 36);
+    assert_eq!(number(Some(1), &cells), 0);
+    assert_eq!(number(Some(0), &cells), 2 * 36);
+    let without: Vec<CellId> = cells
+        .iter()
+        .filter(|cell| cell.index / 36 != 1)
+        .copied()
+        .collect();
+    assert_eq!(number(None, &without), 2 * 36);
 }
 
 #[test]
