@@ -1,4 +1,4 @@
-use crate::system::Idealisation;
+use crate::system::{Idealisation, profile_at};
 use signorini_geometry::element::Element;
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::NodeId;
@@ -25,7 +25,7 @@ pub(super) struct Patch {
     nodes: Vec<NodeId>,
     /// What the measure of each piece is multiplied by.
     factors: Vec<f64>,
-    /// What it is multiplied by at the nodes of each piece, besides; empty where that is 1.
+    /// What the thickness is multiplied by at the nodes of each piece; empty where that is 1.
     profiles: Vec<f64>,
 }
 
@@ -186,15 +186,7 @@ impl Patch {
 impl Sample<'_> {
     /// Quadrature weight, times what the measure of a piece is multiplied by here.
     pub fn weight_in(&self, piece: &Piece<'_>) -> f64 {
-        let here = |profile: &[f64]| -> f64 {
-            let at_nodes = profile.iter().zip(self.shape);
-            at_nodes.map(|(p, n)| p * n).sum()
-        };
-        let along = match piece.profile {
-            [] => 1.0,
-            profile => here(profile),
-        };
-        self.weight * piece.factor * along
+        self.weight * piece.factor * profile_at(piece.profile, self.shape)
     }
 
     pub fn position(&self, x: &[Vec3]) -> Vec3 {

@@ -1,7 +1,7 @@
 //! The idealisation of each body.
 
 use super::BodyPart;
-use crate::system::Idealisation;
+use crate::system::{Idealisation, profile_at};
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets};
 use signorini_geometry::tensor::Vec3;
@@ -73,12 +73,13 @@ impl<'a> Spaces<'a> {
     /// Of the cells behind facets.
     pub fn behind(&self, facets: &Facets) -> Extents {
         let mut extents = Extents::default();
+        let has_profiles = self.profiles.iter().any(Option::is_some);
         for facet in 0..facets.nfacet() as u32 {
             let body = facets.face(facet);
             let body = body.and_then(|face| self.owner.get(&face.cell));
             let body = body.map_or(usize::MAX, |&body| body);
             extents.spaces.push(self.of_body(body));
-            if self.profiles.iter().any(Option::is_some) {
+            if has_profiles {
                 let nodes = facets.nodes(facet).iter();
                 let at_nodes = nodes.map(|&node| self.profile_at(body, node));
                 extents.profiles.push(at_nodes.collect());
@@ -103,7 +104,6 @@ impl Extents {
         let space = self.spaces.get(facet as usize);
         let extent = space.map_or(1.0, |space| space.extent(at));
         let profile = self.profiles.get(facet as usize);
-        let factor = profile.map_or(1.0, |of| of.iter().zip(shape).map(|(p, n)| p * n).sum());
-        extent * factor
+        extent * profile_at(profile.map_or(&[], Vec::as_slice), shape)
     }
 }

@@ -42,3 +42,20 @@ impl Idealisation {
         }
     }
 }
+
+/// What a thickness is multiplied by where nodes with this profile have these shape functions; 1 without a profile.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::system::profile_at;
+/// assert_eq!(profile_at(&[0.5, 1.5], &[0.25, 0.75]), 1.25);
+/// assert_eq!(profile_at(&[], &[0.25, 0.75]), 1.0);
+/// ```
+#[inline]
+#[must_use]
+pub fn profile_at(profile: &[f64], shape: &[f64]) -> f64 {
+    if profile.is_empty() {
+        return 1.0;
+    }
+    profile.iter().zip(shape).map(|(p, n)| p * n).sum()
+}

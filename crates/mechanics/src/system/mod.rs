@@ -81,7 +81,7 @@ pub use frame::{
     ContactFrame, ContactSample, Footprint, Frame, FreeMotion, IdleRows, NodalValues, Resultant,
     RigidFrame, SpinFrame, Status,
 };
-pub use idealisation::Idealisation;
+pub use idealisation::{Idealisation, profile_at};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
 pub use loose::Course;
 pub use phase::{Increment, Phase, StepContext};

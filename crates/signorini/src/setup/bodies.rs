@@ -195,8 +195,8 @@ fn thick(
     names: &Names<'_>,
     found: &mut Diagnostics,
 ) -> Option<()> {
-    let nodes = names.nodes_around(cells);
-    let (Some(node), Some(thickness)) = (plane.gap(&nodes), &body.thickness) else {
+    let nodes = || names.nodes_around(cells.iter().copied());
+    let (Some(node), Some(thickness)) = (plane.gap(nodes), &body.thickness) else {
         return Some(());
     };
     let name = quoted(body.groups.first()?);

@@ -3,7 +3,7 @@
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Space, Thickness};
-use signorini_mechanics::system::Idealisation;
+use signorini_mechanics::system::{Idealisation, profile_at};
 use std::sync::Arc;
 
 /// What the plane of the model stands for.
@@ -20,11 +20,11 @@ pub(super) struct OwnPlane {
 }
 
 impl OwnPlane {
-    /// Of a body with these nodes, in a mesh with these thicknesses at nodes: 0 where none is known.
+    /// Of a body, in a mesh with these thicknesses at nodes: 0 where none is known. Its nodes are asked for where it takes them.
     pub fn new(
         model: &case::Model,
         body: &case::Body,
-        nodes: &[NodeId],
+        nodes: impl FnOnce() -> Vec<NodeId>,
         thicknesses: &[f64],
     ) -> Option<Self> {
         let space = body.space.as_ref().map(|space| space.value);
@@ -36,6 +36,7 @@ impl OwnPlane {
             None => (model.thickness, None),
             Some(Thickness::Uniform(thickness)) => (thickness, None),
             Some(Thickness::Field) => {
+                let nodes = nodes();
                 let at = |&node: &NodeId| thicknesses.get(node as usize);
                 let sum: f64 = nodes.iter().filter_map(at).sum();
                 let mean = sum / nodes.len().max(1) as f64;
@@ -49,20 +50,19 @@ impl OwnPlane {
 
     /// The extent of a facet where its nodes have these shape functions, at a position.
     pub fn extent(&self, nodes: &[NodeId], shape: &[f64], at: Vec3) -> f64 {
-        let extent = self.space.extent(at);
-        let Some(profile) = &self.profile else {
-            return extent;
-        };
-        let of_node = |&node: &NodeId| profile.get(node as usize).copied().unwrap_or(1.0);
-        let here = nodes.iter().map(of_node).zip(shape);
-        extent * here.map(|(p, n)| p * n).sum::<f64>()
+        let profile = self.profile.iter().flat_map(|profile| {
+            let of_node = |&node: &NodeId| profile.get(node as usize).copied().unwrap_or(1.0);
+            nodes.iter().map(of_node)
+        });
+        let profile: Vec<f64> = profile.collect();
+        self.space.extent(at) * profile_at(&profile, shape)
     }
 
-    /// The first of these nodes without a thickness.
-    pub fn gap(&self, nodes: &[NodeId]) -> Option<NodeId> {
+    /// The first of the nodes of its body without a thickness, where it takes that of nodes.
+    pub fn gap(&self, nodes: impl FnOnce() -> Vec<NodeId>) -> Option<NodeId> {
         let profile = self.profile.as_ref()?;
         let has_one = |node: &NodeId| profile.get(*node as usize).is_some_and(|p| *p > 0.0);
-        nodes.iter().copied().find(|node| !has_one(node))
+        nodes().into_iter().find(|node| !has_one(node))
     }
 }
 

@@ -100,13 +100,15 @@ impl<'a> Names<'a> {
         let thicknesses = self.thicknesses(case, found);
         let mut planes = HashMap::new();
         for body in &case.bodies {
-            let groups = body.groups.iter();
-            let sets = groups.filter_map(|name| self.sets.get(&name.value));
-            let cells: Vec<CellId> = sets.flat_map(|set| &set.cells).copied().collect();
-            let nodes = self.nodes_around(&cells);
-            if let Some(own) = OwnPlane::new(&case.model, body, &nodes, &thicknesses) {
+            let cells = || {
+                let groups = body.groups.iter();
+                let sets = groups.filter_map(|name| self.sets.get(&name.value));
+                sets.flat_map(|set| &set.cells).copied()
+            };
+            let nodes = || self.nodes_around(cells());
+            if let Some(own) = OwnPlane::new(&case.model, body, nodes, &thicknesses) {
                 let own = Arc::new(own);
-                planes.extend(cells.into_iter().map(|cell| (cell, Arc::clone(&own))));
+                planes.extend(cells().map(|cell| (cell, Arc::clone(&own))));
             }
         }
         planes
@@ -525,8 +527,8 @@ impl<'a> Names<'a> {
     }
 
     /// The nodes of cells, sorted.
-    pub fn nodes_around(&self, cells: &[CellId]) -> Vec<NodeId> {
-        let nodes = cells.iter().flat_map(|&cell| self.mesh.cell(cell));
+    pub fn nodes_around(&self, cells: impl Iterator<Item = CellId>) -> Vec<NodeId> {
+        let nodes = cells.flat_map(|cell| self.mesh.cell(cell));
         let nodes: BTreeSet<NodeId> = nodes.copied().collect();
         nodes.into_iter().collect()
     }

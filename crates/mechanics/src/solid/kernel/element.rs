@@ -1,7 +1,7 @@
 //! An element as kernels see it: what they take, and what they return.
 
 use crate::material::{Kinematics, Material, MaterialError};
-use crate::system::Idealisation;
+use crate::system::{Idealisation, profile_at};
 use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::element::quadrature::{self, Rule};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -34,12 +34,7 @@ impl Element<'_> {
     /// The extent where the nodes have these shape functions, at a position.
     #[inline]
     pub fn extent(&self, shape: &[f64], at: Vec3) -> f64 {
-        let extent = self.space.extent(at);
-        if self.profile.is_empty() {
-            return extent;
-        }
-        let at_nodes = self.profile.iter().zip(shape);
-        extent * at_nodes.map(|(p, n)| p * n).sum::<f64>()
+        self.space.extent(at) * profile_at(self.profile, shape)
     }
 }
 
