@@ -46,6 +46,7 @@
 //! *Computational Contact Mechanics*, 2013, chapters 2 to 4; Bærentzen and Aanæs, IEEE TVCG 11, 2005 (pseudonormals).
 
 mod analytical;
+mod behind;
 mod bent;
 mod cone;
 mod contact_surface;
@@ -70,6 +71,7 @@ mod torus;
 mod triangulated;
 
 pub use analytical::{Analytical, Patch, Shape, Side};
+pub use behind::bodies;
 pub use bent::Bent;
 pub use cone::Cone;
 pub use contact_surface::ContactSurface;

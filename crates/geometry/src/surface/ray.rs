@@ -15,14 +15,39 @@
 //!
 //! Source: Möller and Trumbore, *Fast, minimum storage ray-triangle intersection*, J. Graphics Tools 2, 1997 (E1).
 
-use super::Facets;
+use super::{Facets, Placement};
 use crate::element::MAX_FACET_NODES;
+use crate::proximity::Bvh;
 use crate::tensor::Vec3;
 
 /// How far outside a triangle, in its own coordinates, a line still crosses it.
 const BOUNDARY: f64 = 1e-9;
 
 impl Facets {
+    /// The first of the facets that `counts` accepts which the line `from + s along`, `0 ≤ s ≤ 1`, crosses, with s; of several
+    /// the lowest. The tree is that of the boxes of all facets, and `near` a buffer.
+    pub fn first_crossed(
+        &self,
+        at: &Placement<'_>,
+        tree: &Bvh,
+        (from, along): (Vec3, Vec3),
+        near: &mut Vec<u32>,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<(f64, u32)> {
+        tree.crossed(from, along, near);
+        let mut first: Option<(f64, u32)> = None;
+        for &facet in near.iter() {
+            if counts(facet)
+                && let Some(s) = self.crossed_at(at.x, facet, from, along)
+                && s <= 1.0
+                && first.is_none_or(|(before, _)| s < before)
+            {
+                first = Some((s, facet));
+            }
+        }
+        first
+    }
+
     /// The smallest `s ≥ 0` at which the line `origin + s direction` crosses a facet; `None` where it does not.
     pub(super) fn crossed_at(
         &self,

@@ -68,15 +68,13 @@ pub fn meetings(skin: &Skin, x: &[Vec3], found: &[Facing]) -> Vec<Meeting> {
         let [least, largest] = opposed.gap;
         opposed.gap = [least.min(one.gap), largest.max(one.gap)];
     }
-    let all_facets = 0..skin.size().len() as u32;
-    let normal: Vec<Vec3> = all_facets.map(|f| skin.middle(x, f).1).collect();
     let all = all.into_iter();
-    all.map(|(parts, opposed)| opposed.meeting(skin, &normal, parts))
+    all.map(|(parts, opposed)| opposed.meeting(skin, x, parts))
         .collect()
 }
 
 impl Opposed {
-    fn meeting(self, skin: &Skin, normal: &[Vec3], [a, b]: [Part; 2]) -> Meeting {
+    fn meeting(self, skin: &Skin, x: &[Vec3], [a, b]: [Part; 2]) -> Meeting {
         let is_fold = a == b;
         let mut live = self.live;
         if is_fold {
@@ -87,8 +85,8 @@ impl Opposed {
         let [first, second] = &live;
         let opposite = |other| (!is_fold).then_some(other);
         let sides = [
-            with_ring(skin, normal, first, opposite(second)),
-            with_ring(skin, normal, second, opposite(first)),
+            with_ring(skin, x, first, opposite(second)),
+            with_ring(skin, x, second, opposite(first)),
         ];
         Meeting {
             bodies: [a.0, b.0],
@@ -131,17 +129,17 @@ fn parts_that_meet_their_body(skin: &Skin, found: &[Facing]) -> BTreeMap<u32, u3
 /// Facets and those next to them that go on without an edge and are not on the other side.
 fn with_ring(
     skin: &Skin,
-    normal: &[Vec3],
+    x: &[Vec3],
     live: &BTreeSet<u32>,
     other: Option<&BTreeSet<u32>>,
 ) -> Vec<u32> {
-    let of = |facet: u32| normal.get(facet as usize).copied().unwrap_or_default();
+    let normal = |facet: u32| skin.middle(x, facet).1;
     let mut side = live.clone();
     for &facet in live {
         let near = skin.facets().neighbours(facet).iter().copied();
         side.extend(near.filter(|&next| {
             let is_opposite = other.is_some_and(|other| other.contains(&next));
-            !is_opposite && of(facet).dot(of(next)) > SMOOTH
+            !is_opposite && normal(facet).dot(normal(next)) > SMOOTH
         }));
     }
     side.into_iter().collect()

@@ -2,10 +2,9 @@
 
 use super::THICK;
 use signorini_geometry::element::{Family, quadrature};
-use signorini_geometry::mesh::quality::parts;
 use signorini_geometry::mesh::{CellId, Face, Mesh, boundary};
 use signorini_geometry::proximity::{Aabb, Bvh};
-use signorini_geometry::surface::{ContactSurface, Facets, FacetsError, Placement};
+use signorini_geometry::surface::{ContactSurface, Facets, FacetsError, Placement, bodies};
 use signorini_geometry::tensor::Vec3;
 
 /// The outer faces of bodies, in the order of the mesh.
@@ -31,21 +30,8 @@ impl Skin {
     ) -> Result<Self, FacetsError> {
         let faces = boundary(mesh, cells.iter().copied());
         let facets = Facets::new(mesh, &faces)?;
-        let mut body_of_node = vec![u32::MAX; mesh.nnode()];
-        for (number, body) in (0..).zip(&parts(mesh, cells)) {
-            for &node in body.iter().flat_map(|&cell| mesh.cell(cell)) {
-                if let Some(of_node) = body_of_node.get_mut(node as usize) {
-                    *of_node = number;
-                }
-            }
-        }
+        let body = bodies(mesh, cells, &facets);
         let all = 0..facets.nfacet() as u32;
-        let body_of = |facet| {
-            let node = facets.nodes(facet).first();
-            let body = node.and_then(|&node| body_of_node.get(node as usize).copied());
-            body.unwrap_or(u32::MAX)
-        };
-        let body: Vec<u32> = all.clone().map(body_of).collect();
         let at = Placement {
             x: &mesh.points,
             poses: &[],
@@ -167,23 +153,20 @@ impl<'a> Walls<'a> {
         let Some(&(from, normal)) = self.middle.get(facet as usize) else {
             return f64::INFINITY;
         };
-        let along = -normal * most;
-        self.tree.crossed(from, along, near);
         let nodes = self.facets.nodes(facet);
         let body = |facet: u32| self.body.get(facet as usize);
-        let leaves = near.iter().filter(|&&other| {
+        let leaves = |other: u32| {
             let of_other = self.middle.get(other as usize);
             let shares = |node: &u32| nodes.contains(node);
             body(other) == body(facet)
                 && of_other.is_some_and(|(_, n)| n.dot(normal) < 0.0)
                 && !self.facets.nodes(other).iter().any(shares)
-        });
-        let ways = leaves.filter_map(|&other| self.facets.crossing(self.at, other, from, along));
-        let first = ways.fold(f64::INFINITY, f64::min);
-        match first <= 1.0 {
-            true => first * most,
-            false => f64::INFINITY,
-        }
+        };
+        let line = (from, -normal * most);
+        let first = self
+            .facets
+            .first_crossed(self.at, &self.tree, line, near, leaves);
+        first.map_or(f64::INFINITY, |(s, _)| s * most)
     }
 }
 

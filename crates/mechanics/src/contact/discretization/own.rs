@@ -98,21 +98,13 @@ impl OwnBody {
         let mut leaves = |facet: u32| {
             let (from, out) = middle(facets, at, facet);
             let along = -out * extent.norm();
-            tree.crossed(from, along, &mut near);
-            let mut first: Option<(f64, u32)> = None;
-            for &other in &near {
+            let is_behind = |other: u32| {
                 let faces_away = normal.get(other as usize).is_some_and(|n| n.dot(out) < 0.0);
                 let is_own = body.get(other as usize) == body.get(facet as usize);
-                if other != facet
-                    && is_own
-                    && faces_away
-                    && let Some(s) = facets.crossing(at, other, from, along)
-                    && first.is_none_or(|(before, _)| s < before)
-                {
-                    first = Some((s, other));
-                }
-            }
-            let (s, other) = first?;
+                other != facet && is_own && faces_away
+            };
+            let (s, other) =
+                facets.first_crossed(at, &tree, (from, along), &mut near, is_behind)?;
             let mut jet = SurfaceJet::default();
             let found = facets.project(at, other, from + along * s, None, &mut jet);
             found.ok().flatten().map(|found| found.anchor)

@@ -2,27 +2,12 @@
 
 use signorini_geometry::mesh::quality::parts;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::surface::{ContactSurface, Facets};
+use signorini_geometry::surface::{self, Facets};
 
 /// A number for each facet that it shares with all facets of the same body and with no other.
 pub(super) fn bodies(mesh: &Mesh, facets: &Facets) -> Vec<u32> {
-    // a node of no solid is a body of its own
-    let mut body: Vec<NodeId> = (0..mesh.nnode() as NodeId).collect();
-    for part in solids(mesh) {
-        let mut nodes = part.iter().flat_map(|&cell| mesh.cell(cell)).peekable();
-        let first = nodes.peek().map_or(0, |&&node| node);
-        for &node in nodes {
-            if let Some(body) = body.get_mut(node as usize) {
-                *body = first;
-            }
-        }
-    }
-    let of = |facet: u32| {
-        let first = facets.nodes(facet).first();
-        let body = first.and_then(|&node| body.get(node as usize));
-        body.copied().unwrap_or(0)
-    };
-    (0..facets.nfacet() as u32).map(of).collect()
+    let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
+    surface::bodies(mesh, &cells, facets)
 }
 
 /// The solid cells of the bodies that a surface touches.
