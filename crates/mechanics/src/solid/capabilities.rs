@@ -4,7 +4,8 @@ use super::at::At;
 use super::cells::{CHUNK, Cells};
 use super::kernel::Sample;
 use super::kernel::at_point;
-use super::term::{Scratch, Solid, Wanted};
+use super::scratch::{Scratch, Wanted};
+use super::term::Solid;
 use crate::material::Strain;
 use crate::system::{
     Archive, ArchiveError, Elementwise, InitialStiffness, PointSample, Sampled, Samples, Sink,

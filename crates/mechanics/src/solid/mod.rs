@@ -94,6 +94,7 @@ mod error;
 mod kernel;
 mod plan;
 mod report;
+mod scratch;
 mod term;
 #[cfg(test)]
 mod tests;
