@@ -3,8 +3,12 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[allow(dead_code)]
+#[path = "common/mutants.rs"]
+mod mutants;
 
 use common::text;
+use mutants::many;
 use signorini::preview::preview;
 use signorini::setup::{build, read_mesh_of};
 use signorini_io::case::mutate::{Generator, mutate};
@@ -65,11 +69,9 @@ fn two_thousand_damaged_cases_are_refused_or_built_without_panic() {
     mutants(2_000, 20261121);
 }
 
-/// 25,000, or as many and from that seed as `SIGNORINI_MUTANTS="200000 7"` asks for.
 #[test]
 #[ignore = "takes half a minute: run by .ci/run"]
 fn many_more_damaged_cases_are_refused_or_built_without_panic() {
-    let asked = std::env::var("SIGNORINI_MUTANTS").unwrap_or_else(|_| "25000 7".into());
-    let (count, seed) = asked.split_once(' ').unwrap();
-    mutants(count.parse().unwrap(), seed.parse().unwrap());
+    let (count, seed) = many(7);
+    mutants(count, seed);
 }

@@ -1,6 +1,6 @@
 //! Damaged decks of Abaqus and CalculiX.
 
-use crate::mutants::Mutants;
+use crate::mutants::{Mutants, many};
 use crate::{of_others, own};
 use signorini::Compat;
 use signorini_io::case::mutate::mutate;
@@ -37,11 +37,9 @@ fn of_two_thousand_damaged_decks_none_ends_badly() {
     mutants(2_000, 20261122);
 }
 
-/// 25,000, or as many and from that seed as `SIGNORINI_MUTANTS="200000 7"` asks for.
 #[test]
-#[ignore = "takes minutes: run by .ci/run"]
+#[ignore = "takes a minute: run by .ci/run"]
 fn of_many_more_damaged_decks_none_ends_badly() {
-    let asked = std::env::var("SIGNORINI_MUTANTS").unwrap_or_else(|_| "25000 6".into());
-    let (count, seed) = asked.split_once(' ').unwrap();
-    mutants(count.parse().unwrap(), seed.parse().unwrap());
+    let (count, seed) = many(6);
+    mutants(count, seed);
 }

@@ -1,6 +1,6 @@
 //! Damaged decks of OOFEM.
 
-use crate::mutants::Mutants;
+use crate::mutants::{Mutants, many};
 use crate::{decks_in, own};
 use signorini::Compat;
 use signorini_io::case::mutate::{Generator, mutate};
@@ -81,11 +81,9 @@ fn of_two_thousand_damaged_decks_none_ends_badly() {
     mutants(2_000, 20261123);
 }
 
-/// 25,000, or as many and from that seed as `SIGNORINI_MUTANTS="200000 7"` asks for.
 #[test]
 #[ignore = "takes half a minute: run by .ci/run"]
 fn of_many_more_damaged_decks_none_ends_badly() {
-    let asked = std::env::var("SIGNORINI_MUTANTS").unwrap_or_else(|_| "25000 7".into());
-    let (count, seed) = asked.split_once(' ').unwrap();
-    mutants(count.parse().unwrap(), seed.parse().unwrap());
+    let (count, seed) = many(7);
+    mutants(count, seed);
 }

@@ -30,6 +30,14 @@ impl Listener for Limit {
     }
 }
 
+/// How many mutants a long test tries, and from which seed: 25,000 from this one, or what `SIGNORINI_MUTANTS="200000 7"`
+/// asks for.
+pub fn many(seed: u64) -> (usize, u64) {
+    let asked = std::env::var("SIGNORINI_MUTANTS").unwrap_or_else(|_| format!("25000 {seed}"));
+    let (count, seed) = asked.split_once(' ').unwrap();
+    (count.parse().unwrap(), seed.parse().unwrap())
+}
+
 /// How many mutants, from which seed, and of how many one that can be built is solved.
 pub struct Mutants {
     pub count: usize,
