@@ -78,6 +78,14 @@ pub struct SolidParts<'a> {
     pub axes: Option<MaterialAxes>,
 }
 
+/// A material as it answers in a space.
+fn in_space(material: Box<dyn Material>, space: Idealisation) -> Box<dyn Material> {
+    match space {
+        Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
+        _ => material,
+    }
+}
+
 impl Solid {
     /// The body made of these parts.
     ///
@@ -103,10 +111,7 @@ impl Solid {
             axes,
         } = parts;
         let linear = vec![is_linear(material.as_ref())];
-        let material: Box<dyn Material> = match space {
-            Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
-            _ => material,
-        };
+        let material = in_space(material, space);
         let keeps_volume = |kinematics| keeps_volume(material.as_ref(), kinematics);
         let keeps_volume = [Kinematics::Small, Kinematics::Finite].map(keeps_volume);
         let mut blocks: Vec<(u32, Cells)> = Vec::new();
@@ -193,10 +198,7 @@ impl Solid {
     /// Its history at a point is another one's.
     pub fn change(&mut self, step: usize, material: Box<dyn Material>) -> Result<(), SolidError> {
         let linear = is_linear(material.as_ref());
-        let material: Box<dyn Material> = match self.space {
-            Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
-            _ => material,
-        };
+        let material = in_space(material, self.space);
         if material.nhistory() != self.material.nhistory() {
             return Err(SolidError::OtherHistory {
                 body: self.name.clone(),
