@@ -356,6 +356,16 @@ fn all_sides(
             }
         }
     }
+    let all: Vec<&Sides> = sides.iter().map(|(one, _)| one).collect();
+    let holds = |one: &Sides| {
+        let is_free = |part: &ContactPart| part.tie.is_none();
+        contacts.rubs(one.contact) && contacts.parts.get(one.contact).is_some_and(is_free)
+    };
+    for (number, nodes) in contact::yields(source.mesh, source.reference, &all, &holds) {
+        if let Some((one, _)) = sides.get_mut(number) {
+            one.yield_at(nodes);
+        }
+    }
     Ok(sides)
 }
 

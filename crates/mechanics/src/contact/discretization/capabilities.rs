@@ -5,7 +5,7 @@ use super::pair::{Anchored, BentSides, Pairing, SurfacePair};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// The axes along which nodes are held; those of no node that is not.
 pub type HeldAxes = HashMap<NodeId, [bool; 3]>;
@@ -61,6 +61,10 @@ pub trait Averaged: Send + Sync {
         pair: &SurfacePair,
         held: HeldAxes,
     ) -> Result<Option<Vec<f64>>, SurfaceError>;
+
+    /// Leaves rows of these nodes to other contacts: their functions go to rows next to them, where there are any. Before any
+    /// pairing is made.
+    fn yield_at(&mut self, nodes: BTreeSet<NodeId>);
 
     /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before
     /// likewise; says whether rows now see others. What follows the motion smoothly follows it closely `from_rest`, at the

@@ -1,12 +1,14 @@
 //! From the parts of a contact to its interface.
 
 mod joined;
+mod junctions;
 mod open_edges;
 mod probe;
 mod sides;
 mod start;
 mod variants;
 
+pub(super) use junctions::yields;
 pub(super) use sides::{Sides, Source};
 pub(super) use start::closed;
 pub(super) use variants::Variant;

@@ -8,7 +8,8 @@ mod source;
 pub(in crate::model) use source::Source;
 
 use crate::contact::discretization::{
-    self, Discretization, FacetSizes, Lean, Mortar, Pair, Pairing, SlidingRange, SurfacePair,
+    self, Averaged, Discretization, FacetSizes, Lean, Mortar, Pair, Pairing, SlidingRange,
+    SurfacePair,
 };
 use crate::contact::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
 use crate::contact::{Areas, Measure, closest_points};
@@ -22,6 +23,7 @@ use rows::Pass;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// How often the reach is doubled to find nearby facets at the start.
@@ -44,6 +46,8 @@ pub(in crate::model) struct Sides {
     pub sliding: SlidingRange,
     /// Nodes that both sides have.
     pub shared: Vec<NodeId>,
+    /// Nodes whose rows other contacts have.
+    pub yields: BTreeSet<NodeId>,
     pub swapped: bool,
     /// Which of the contact's variants it is a pass of.
     pub variant: usize,
@@ -101,6 +105,7 @@ impl Source<'_> {
             variant: 0,
             facets: pass.primary.clone(),
             shared: pass.shared.clone(),
+            yields: BTreeSet::new(),
             pair: pass.into_pair(),
         })
     }
@@ -305,11 +310,20 @@ impl Sides {
         let Some(&space) = spaces.behind(facets).spaces.first() else {
             return Ok(());
         };
-        let mortar = Mortar::new(facets, primary, form, measure(space), at.x)?
-            .held_at(&self.pair, at, share)?;
+        let mut mortar = Mortar::new(facets, primary, form, measure(space), at.x)?;
+        mortar.yield_at(self.yields.clone());
+        let mortar = mortar.held_at(&self.pair, at, share)?;
         self.area = mortar_areas(&mortar, at.x, space, spaces);
         self.discretization = Box::new(mortar);
         Ok(())
+    }
+
+    /// Leaves rows of these nodes to other contacts.
+    pub fn yield_at(&mut self, nodes: BTreeSet<NodeId>) {
+        if let Some(rows) = self.discretization.averaged_mut() {
+            rows.yield_at(nodes.clone());
+        }
+        self.yields = nodes;
     }
 
     /// Closest points at a configuration, within the reach.

@@ -86,6 +86,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{ContactSurface, Facets, Feature, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use structural::structural;
@@ -148,6 +149,8 @@ pub struct Mortar {
     held: Option<HeldWeights>,
     /// The axes along which nodes of both sides are held in the present step.
     supports: HeldAxes,
+    /// Nodes whose rows other contacts have.
+    yields: BTreeSet<NodeId>,
     kept: Kept,
 }
 
@@ -246,6 +249,7 @@ impl Mortar {
             measure,
             held: None,
             supports: HeldAxes::default(),
+            yields: BTreeSet::new(),
             kept,
         })
     }

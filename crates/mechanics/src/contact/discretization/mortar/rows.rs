@@ -16,6 +16,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
 
 impl Discretization for Mortar {
     fn nrow(&self) -> usize {
@@ -158,6 +159,10 @@ impl Averaged for Mortar {
         held: HeldAxes,
     ) -> Result<Option<Vec<f64>>, SurfaceError> {
         self.take_supports(pair, held)
+    }
+
+    fn yield_at(&mut self, nodes: BTreeSet<NodeId>) {
+        self.yields = nodes;
     }
 
     fn settle(

@@ -57,7 +57,8 @@ impl Mortar {
         Ok(factors)
     }
 
-    /// Lets rows of nodes that are held on both sides hand over their functions to rows of which enough is covered.
+    /// Lets rows of nodes that are held on both sides, or that other contacts have, hand over their functions to rows of which
+    /// enough is covered.
     pub(super) fn free_supports(
         &self,
         facets: &Facets,
@@ -65,11 +66,15 @@ impl Mortar {
         parts: &[f64],
         found: &mut Guests,
     ) {
-        if self.supports.is_empty() {
+        if self.supports.is_empty() && self.yields.is_empty() {
             return;
         }
+        let yields = |row: usize| {
+            self.yields.contains(&self.nodes[row])
+                || (!self.supports.is_empty() && self.is_held(row, weights))
+        };
         let is_held: Vec<bool> = (0..self.nodes.len())
-            .map(|row| !found.left[row] && !found.is_pointwise(row) && self.is_held(row, weights))
+            .map(|row| !found.left[row] && !found.is_pointwise(row) && yields(row))
             .collect();
         for row in (0..self.nodes.len()).filter(|&row| is_held[row]) {
             self.hand_over(
