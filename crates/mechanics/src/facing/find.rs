@@ -69,6 +69,12 @@ impl Finder {
         &self.skin
     }
 
+    /// What the last search found.
+    #[must_use]
+    pub fn found(&self) -> &[Facing] {
+        &self.found
+    }
+
     /// All facets with those that they face, sorted, where nodes are at `x` and expected to move by `motion`; not at all where
     /// that is empty.
     ///

@@ -1,12 +1,8 @@
-//! Which bodies meet, and with which parts of their surfaces.
+//! Which parts of surfaces meet.
 //!
-//! The facets of two bodies that face one another, and those next to them, are the sides of a meeting. Edges of the bodies end
-//! them: a side does not go round an edge of 30 degrees to facets that face nothing, whose nodes could be met by nothing
-//! and whose normals would tilt those at the edge.
-//!
-//! A body may meet itself. What faces one another then are parts of its surface, connected by shared nodes. Two parts
-//! without common nodes are the two sides of a meeting. Where one part faces itself, as in a fold, both sides are
-//! that part, and each of its points may be met by every other.
+//! The sides of contacts are regions: facets that go on into one another without an edge of 30 degrees. A side that went round
+//! an edge would have nodes there that nothing can meet, and normals that are those of neither face. A body that meets itself
+//! does so with two of its regions, or with one that faces itself, as in a fold.
 
 use super::Facing;
 use super::skin::Skin;
@@ -14,135 +10,127 @@ use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// cos 30°, of the angle between normals from which on an edge ends a side.
+/// cos 30°, of the angle between normals from which on an edge ends a region.
 const SMOOTH: f64 = 0.866_025_403_784_438_6;
 
-/// Two bodies, or parts of one, whose facets face one another.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Meeting {
-    /// The bodies, the lower number first; twice the same where a body meets itself.
-    pub bodies: [u32; 2],
-    /// The facets of each that face the other, sorted.
-    pub live: [Vec<u32>; 2],
-    /// These and the smooth ring around them, sorted.
-    pub sides: [Vec<u32>; 2],
-    /// The least and the largest distance of facets that face one another; negative where they overlap.
-    pub gap: [f64; 2],
-    /// Whether both sides are one part of one body.
-    pub is_fold: bool,
+/// The regions of a skin, numbered in the order of their first facets.
+#[derive(Clone, Debug, Default)]
+pub struct Regions {
+    /// The region of each facet.
+    of: Vec<u32>,
+    /// The facets of each region, sorted.
+    facets: Vec<Vec<u32>>,
 }
 
-/// A part of the surface of a body: the body, and the number of the part where the body meets itself.
-type Part = (u32, u32);
+/// Two regions whose facets face one another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meeting {
+    /// The regions, the lower number first; twice the same where one faces itself.
+    pub regions: [u32; 2],
+    /// The facets of each that face the other, sorted.
+    pub live: [Vec<u32>; 2],
+    /// The least and the largest distance of facets that face one another; negative where they overlap.
+    pub gap: [f64; 2],
+}
 
-/// What faces each other of two parts.
+impl Regions {
+    /// Those of a skin whose nodes are at `x`. Facets of different `kind` are in different regions.
+    #[must_use]
+    pub fn new(skin: &Skin, x: &[Vec3], kind: impl Fn(u32) -> u32) -> Self {
+        let n = skin.facets().nfacet();
+        let normal: Vec<Vec3> = (0..n as u32).map(|f| skin.middle(x, f).1).collect();
+        let normal = |facet: u32| normal.get(facet as usize).copied().unwrap_or_default();
+        let mut of = vec![u32::MAX; n];
+        let mut facets: Vec<Vec<u32>> = Vec::new();
+        for first in 0..n as u32 {
+            if of.get(first as usize) != Some(&u32::MAX) {
+                continue;
+            }
+            let number = facets.len() as u32;
+            let (mut region, mut waiting) = (Vec::new(), vec![first]);
+            while let Some(facet) = waiting.pop() {
+                match of.get_mut(facet as usize) {
+                    Some(to) if *to == u32::MAX => *to = number,
+                    _ => continue,
+                }
+                region.push(facet);
+                let near = skin.facets().neighbours(facet).iter().copied();
+                waiting.extend(near.filter(|&next| {
+                    kind(next) == kind(facet)
+                        && normal(facet).dot(normal(next)) > SMOOTH
+                        && skin.body().get(next as usize) == skin.body().get(facet as usize)
+                }));
+            }
+            region.sort_unstable();
+            facets.push(region);
+        }
+        Self { of, facets }
+    }
+
+    /// The facets of a region, sorted.
+    #[must_use]
+    pub fn facets(&self, region: u32) -> &[u32] {
+        self.facets.get(region as usize).map_or(&[], Vec::as_slice)
+    }
+
+    /// The region of a facet.
+    #[must_use]
+    pub fn of(&self, facet: u32) -> Option<u32> {
+        self.of.get(facet as usize).copied()
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.facets.len()
+    }
+
+    /// Which regions meet by what faces each other, in the order of their numbers.
+    #[must_use]
+    pub fn meetings(&self, found: &[Facing]) -> Vec<Meeting> {
+        let mut all: BTreeMap<[u32; 2], Opposed> = BTreeMap::new();
+        for one in found {
+            let (Some(a), Some(b)) = (self.of(one.facet), self.of(one.other)) else {
+                continue;
+            };
+            let (regions, facets) = match a <= b {
+                true => ([a, b], [one.facet, one.other]),
+                false => ([b, a], [one.other, one.facet]),
+            };
+            all.entry(regions).or_default().add(facets, one.gap);
+        }
+        let meeting = |(regions, met): ([u32; 2], Opposed)| Meeting {
+            regions,
+            live: met.live.map(|side| side.into_iter().collect()),
+            gap: met.gap,
+        };
+        all.into_iter().map(meeting).collect()
+    }
+}
+
+/// What faces each other of two regions.
 struct Opposed {
     live: [BTreeSet<u32>; 2],
     gap: [f64; 2],
 }
 
-/// What faces each other, in the order of the bodies and of their facets, where nodes are at `x`.
-#[must_use]
-pub fn meetings(skin: &Skin, x: &[Vec3], found: &[Facing]) -> Vec<Meeting> {
-    let own = parts_that_meet_their_body(skin, found);
-    let body = |facet: u32| skin.body().get(facet as usize).copied().unwrap_or(u32::MAX);
-    let part = |facet: u32, is_own: bool| -> Part {
-        let of_own = own.get(&facet).copied().filter(|_| is_own);
-        (body(facet), of_own.unwrap_or(0))
-    };
-    let mut all: BTreeMap<[Part; 2], Opposed> = BTreeMap::new();
-    for one in found {
-        let is_own = body(one.facet) == body(one.other);
-        let (a, b) = (part(one.facet, is_own), part(one.other, is_own));
-        let (parts, facets) = match a <= b {
-            true => ([a, b], [one.facet, one.other]),
-            false => ([b, a], [one.other, one.facet]),
-        };
-        let opposed = all.entry(parts).or_insert_with(|| Opposed {
+impl Default for Opposed {
+    fn default() -> Self {
+        Self {
             live: Default::default(),
             gap: [f64::INFINITY, f64::NEG_INFINITY],
-        });
-        for (side, facet) in opposed.live.iter_mut().zip(facets) {
-            side.insert(facet);
         }
-        let [least, largest] = opposed.gap;
-        opposed.gap = [least.min(one.gap), largest.max(one.gap)];
     }
-    let all = all.into_iter();
-    all.map(|(parts, opposed)| opposed.meeting(skin, x, parts))
-        .collect()
 }
 
 impl Opposed {
-    fn meeting(self, skin: &Skin, x: &[Vec3], [a, b]: [Part; 2]) -> Meeting {
-        let is_fold = a == b;
-        let mut live = self.live;
-        if is_fold {
-            let [first, second] = &live;
-            let both: BTreeSet<u32> = first.union(second).copied().collect();
-            live = [both.clone(), both];
+    fn add(&mut self, facets: [u32; 2], gap: f64) {
+        for (side, facet) in self.live.iter_mut().zip(facets) {
+            side.insert(facet);
         }
-        let [first, second] = &live;
-        let opposite = |other| (!is_fold).then_some(other);
-        let sides = [
-            with_ring(skin, x, first, opposite(second)),
-            with_ring(skin, x, second, opposite(first)),
-        ];
-        Meeting {
-            bodies: [a.0, b.0],
-            live: live.map(|side| side.into_iter().collect()),
-            sides,
-            gap: self.gap,
-            is_fold,
-        }
+        let [least, largest] = self.gap;
+        self.gap = [least.min(gap), largest.max(gap)];
     }
-}
-
-/// Of the facets that face their own body, the number of the connected part that each is in.
-fn parts_that_meet_their_body(skin: &Skin, found: &[Facing]) -> BTreeMap<u32, u32> {
-    let body = |facet: u32| skin.body().get(facet as usize);
-    let own = found
-        .iter()
-        .filter(|one| body(one.facet) == body(one.other));
-    let live: BTreeSet<u32> = own.flat_map(|one| [one.facet, one.other]).collect();
-    let mut part: BTreeMap<u32, u32> = BTreeMap::new();
-    let mut count = 0;
-    for &first in &live {
-        if part.contains_key(&first) {
-            continue;
-        }
-        let mut waiting = vec![first];
-        part.insert(first, count);
-        while let Some(facet) = waiting.pop() {
-            for &next in skin.facets().neighbours(facet) {
-                if live.contains(&next) && !part.contains_key(&next) {
-                    part.insert(next, count);
-                    waiting.push(next);
-                }
-            }
-        }
-        count += 1;
-    }
-    part
-}
-
-/// Facets and those next to them that go on without an edge and are not on the other side.
-fn with_ring(
-    skin: &Skin,
-    x: &[Vec3],
-    live: &BTreeSet<u32>,
-    other: Option<&BTreeSet<u32>>,
-) -> Vec<u32> {
-    let normal = |facet: u32| skin.middle(x, facet).1;
-    let mut side = live.clone();
-    for &facet in live {
-        let near = skin.facets().neighbours(facet).iter().copied();
-        side.extend(near.filter(|&next| {
-            let is_opposite = other.is_some_and(|other| other.contains(&next));
-            !is_opposite && normal(facet).dot(normal(next)) > SMOOTH
-        }));
-    }
-    side.into_iter().collect()
 }
 
 /// What decides which side of a meeting is the secondary one, whose nodes may not enter the other.
@@ -163,7 +151,7 @@ pub struct Standing {
 const ALIKE: f64 = 0.95;
 
 /// The secondary side of two: what is led is primary; then the finer is secondary, then the softer, then the more convex, then
-/// the first.
+/// the second.
 #[must_use]
 pub fn secondary(of: [Standing; 2]) -> usize {
     let [a, b] = of;
@@ -178,7 +166,7 @@ pub fn secondary(of: [Standing; 2]) -> usize {
         return usize::from(b.modulus < a.modulus);
     }
     let scale = 1e-6 / a.size.max(b.size);
-    usize::from(b.bulge > a.bulge + scale)
+    usize::from(b.bulge >= a.bulge - scale)
 }
 
 impl Skin {

@@ -37,7 +37,7 @@ mod meetings;
 mod skin;
 
 pub use find::{Facing, Finder};
-pub use meetings::{Meeting, Standing, meetings, secondary};
+pub use meetings::{Meeting, Regions, Standing, secondary};
 pub use skin::Skin;
 
 /// cos 80°, of the angle between normals up to which facets face one another (E1).
