@@ -131,6 +131,8 @@ pub struct ContactFrame {
     pub secondary: Resultant,
     /// What the secondary side exerts on the primary; moment about the origin.
     pub primary: Resultant,
+    /// Whether histories have the force on the primary side.
+    pub is_reversed: bool,
     /// The part of the force on the secondary side that pressures exert.
     pub force_normal: Vec3,
     /// The moment of that part about the origin.
@@ -203,6 +205,16 @@ impl ContactFrame {
         self.work_friction += pass.work_friction;
         if let (Some(faces), Some(others)) = (&mut self.faces, &pass.faces) {
             faces.extend(others);
+        }
+    }
+
+    /// What acts on the side whose force histories have: the secondary one, or that of the body that the name of the contact
+    /// begins with.
+    #[must_use]
+    pub fn reported(&self) -> Resultant {
+        match self.is_reversed {
+            true => self.primary,
+            false => self.secondary,
         }
     }
 

@@ -114,6 +114,8 @@ pub struct InterfaceParts {
     pub smooths: bool,
     /// Whether it is the second pass of a contact, whose results belong to the first with the sides swapped.
     pub swapped: bool,
+    /// Whether its forces are reported as those on the primary side.
+    pub is_reversed: bool,
     /// Which of the interfaces of a contact it is, whose facets take part only in some steps.
     pub variant: usize,
 }
@@ -152,6 +154,7 @@ impl InterfaceParts {
             traction_tolerance: 1e-7,
             smooths: false,
             swapped: false,
+            is_reversed: false,
             variant: 0,
         }
     }

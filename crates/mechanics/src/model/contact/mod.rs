@@ -231,6 +231,7 @@ impl Context<'_> {
             traction_tolerance: steps.traction_tol,
             smooths: part.smooths,
             swapped: sides.swapped,
+            is_reversed: part.is_reversed,
             variant: sides.variant,
         };
         Ok((parts, summary))

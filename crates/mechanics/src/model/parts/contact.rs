@@ -273,6 +273,8 @@ pub struct ContactPart {
     pub smooths: bool,
     /// Whether it acts in the first step.
     pub active: bool,
+    /// Whether its forces are reported as those on the primary side: that of the body that its name names first.
+    pub is_reversed: bool,
 }
 
 impl FrictionPart {
@@ -329,6 +331,7 @@ impl ContactPart {
             reach: None,
             smooths: false,
             active: true,
+            is_reversed: false,
         }
     }
 }
