@@ -89,6 +89,6 @@ pub(crate) mod tests;
 
 pub use interface::{
     Allowance, Areas, Bend, ContactPhase, Interface, InterfaceParts, Measure, Shift,
-    closest_points, nmultiplier,
+    closest_points, inherit, nmultiplier,
 };
 pub use row::{Participant, Row, RowOrder, Rows, Wanted};

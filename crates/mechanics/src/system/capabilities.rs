@@ -158,8 +158,26 @@ pub trait Audited {
     /// A node of the point that a multiplier acts at; none where it is another term's.
     fn node_of(&self, multiplier: usize) -> Option<NodeId>;
 
+    /// What its rows, facets and multipliers are.
+    fn numbering(&self) -> ContactNumbering;
+
     /// Audits an accepted state, whose results so far are in the frame; nothing where the contact does not act.
     fn audit(&self, state: &State, frame: &Frame) -> Option<ContactAudit>;
+}
+
+/// The rows, facets and multipliers of a contact, by what they are of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ContactNumbering {
+    /// What the names of its arrays have.
+    pub name: String,
+    /// Of each row, the nodes of its point, and its number among rows of these.
+    pub rows: Vec<(Vec<NodeId>, u32)>,
+    /// Of each facet of the primary side, its nodes.
+    pub facets: Vec<Vec<NodeId>>,
+    /// Its first multiplier.
+    pub first_multiplier: usize,
+    /// The multipliers of each row.
+    pub nmultiplier: usize,
 }
 
 /// What a term says after an iteration.

@@ -72,8 +72,8 @@ pub use assembler::Assembler;
 pub use assembly::Assembly;
 pub use audited::{Check, ContactAudit, Measured};
 pub use capabilities::{
-    Adaptive, Aid, Audited, Capabilities, Choices, Elementwise, InitialStiffness, Sampled, Stored,
-    Verdict, Viscous,
+    Adaptive, Aid, Audited, Capabilities, Choices, ContactNumbering, Elementwise, InitialStiffness,
+    Sampled, Stored, Verdict, Viscous,
 };
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};

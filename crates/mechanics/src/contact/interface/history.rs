@@ -19,9 +19,9 @@ const LIMIT_TOLERANCE: f64 = 1e-7;
 const TOUCH: f64 = 1e-12;
 
 /// Numbers of a pair, of a memory and of a judgement, in a checkpoint.
-const PAIR: usize = 11;
-const MEMORY: usize = 15;
-const JUDGED: usize = 3;
+pub(super) const PAIR: usize = 11;
+pub(super) const MEMORY: usize = 15;
+pub(super) const JUDGED: usize = 3;
 
 impl Interface {
     /// Areas at this configuration.
@@ -458,7 +458,7 @@ impl Interface {
         renewable.map_or_else(Vec::new, Renewable::store)
     }
 
-    fn stored_name(&self) -> String {
+    pub(super) fn stored_name(&self) -> String {
         let pass = if self.parts.swapped { ".swapped" } else { "" };
         match self.parts.variant {
             0 => format!("{}{pass}", self.parts.name),

@@ -6,6 +6,7 @@ mod coupled;
 mod drift;
 mod freedom;
 mod history;
+mod inherited;
 mod judged;
 mod lent;
 mod lents;
@@ -21,6 +22,7 @@ mod reversals;
 mod rows;
 mod term;
 
+pub use inherited::inherit;
 pub use near::closest_points;
 pub use parts::{
     Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, nmultiplier,

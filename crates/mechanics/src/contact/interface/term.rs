@@ -6,9 +6,9 @@ use super::{Interface, Scratch, rows};
 use crate::contact::kernel::Contact;
 use crate::contact::law::Multiplier;
 use crate::system::{
-    Adaptive, Aid, Archive, ArchiveError, Audited, Capabilities, Choices, ContactAudit, Frame,
-    Order, Part, PatternSink, Phase, Properties, Sink, State, Stored, Symmetry, Term, TermError,
-    Verdict, Viscous, Work,
+    Adaptive, Aid, Archive, ArchiveError, Audited, Capabilities, Choices, ContactAudit,
+    ContactNumbering, Frame, Order, Part, PatternSink, Phase, Properties, Sink, State, Stored,
+    Symmetry, Term, TermError, Verdict, Viscous, Work,
 };
 use signorini_geometry::mesh::NodeId;
 
@@ -261,6 +261,10 @@ impl Audited for Interface {
         let row = own.checked_div(self.nmultiplier())?;
         let known = row < self.now.pairs.len();
         known.then(|| self.parts.discretization.point(row).nodes.first().copied())?
+    }
+
+    fn numbering(&self) -> ContactNumbering {
+        self.numbered()
     }
 
     fn audit(&self, state: &State, frame: &Frame) -> Option<ContactAudit> {
