@@ -3,6 +3,7 @@
 //! Nothing is written; frames are handed over. For coupling with other programs, for optimisation, and for looking at a
 //! run from inside.
 
+use crate::run::births::{self, Watch};
 use crate::run::{Saved, bad_checkpoint, begin, cannot_resume, failure_message, solution};
 use crate::setup::Model;
 use signorini_io::checkpoint::{self, Stamp};
@@ -55,6 +56,8 @@ pub struct Driver {
     model: Model,
     stepper: Stepper,
     frame: Frame,
+    /// For contact that begins, where nobody names pairs.
+    watch: Option<Watch>,
 }
 
 /// States go from one model to another: what does not fit is found array by array.
@@ -67,8 +70,10 @@ impl Driver {
     /// An undeformed state that cannot be evaluated: exit code 4.
     pub fn new(mut model: Model) -> Result<Self, Diagnostics> {
         let start = begin(&mut model)?;
+        let stepper = Stepper::new(&model.system, model.settings);
         Ok(Self {
-            stepper: Stepper::new(&model.system, model.settings),
+            watch: Watch::new(&model, &stepper),
+            stepper,
             model,
             frame: start.frame,
         })
@@ -130,8 +135,29 @@ impl Driver {
             }
             observe(event)
         };
-        let Model { system, steps, .. } = &mut self.model;
-        let outcome = self.stepper.run_until(system, steps, until, &mut observer);
+        let outcome = loop {
+            let Model {
+                system,
+                steps,
+                general,
+                mesh,
+                ..
+            } = &mut self.model;
+            let (Some(watch), Some(general)) = (&mut self.watch, general) else {
+                break self.stepper.run_until(system, steps, until, &mut observer);
+            };
+            let mut watched = watch.over(general, &mesh.points, &mut observer);
+            let outcome = self.stepper.run_until(system, steps, until, &mut watched);
+            let (births, is_stopped) = (std::mem::take(&mut watched.births), watched.is_stopped);
+            if !matches!(outcome, Ok(Outcome::Stopped)) {
+                break outcome;
+            }
+            watch.go_on(&mut self.model, &mut self.stepper, &births)?;
+            let left = until - self.stepper.state().time;
+            if is_stopped || left <= 1e-12 * until {
+                break outcome;
+            }
+        };
         if let Some(frame) = last {
             self.frame = frame;
         }
@@ -154,6 +180,7 @@ impl Driver {
     pub fn save(&self) -> Result<Vec<u8>, Diagnostics> {
         let mut archive = checkpoint::Archive::new();
         solution::put(&self.solution(), &mut archive).map_err(cannot_resume)?;
+        births::put(&self.model, &mut archive).map_err(cannot_resume)?;
         let stamp = Stamp {
             step: self.frame.step_number as u64,
             increment: self.frame.increment as u64,
@@ -169,13 +196,20 @@ impl Driver {
     pub fn restore(&mut self, state: &[u8]) -> Result<(), Diagnostics> {
         let from = checkpoint::from_bytes(state, &ANY_CASE);
         let from = from.map_err(|error| bad_checkpoint(&error))?;
-        let before = self.solution();
-        let taken = self.take(&solution::of(&from.archive));
+        let before = self.save()?;
+        let taken = self.go_to(&from.archive);
         if taken.is_err() {
             // terms may have taken a part of it
-            self.take(&before)?;
+            let before = checkpoint::from_bytes(&before, &ANY_CASE);
+            let before = before.map_err(|error| bad_checkpoint(&error))?;
+            self.go_to(&before.archive)?;
         }
         taken
+    }
+
+    fn go_to(&mut self, archive: &checkpoint::Archive) -> Result<(), Diagnostics> {
+        births::take(&mut self.model, archive)?;
+        self.take(&solution::of(archive))
     }
 
     /// Goes on with another model of the same unknowns, from the present state: one whose loads, materials or contacts have
@@ -185,6 +219,10 @@ impl Driver {
     /// A model of other unknowns, or one that cannot be evaluated.
     pub fn replace(&mut self, model: Model) -> Result<(), Diagnostics> {
         let solution = self.solution();
+        let mut found = checkpoint::Archive::new();
+        births::put(&self.model, &mut found).map_err(cannot_resume)?;
+        let mut model = model;
+        births::take(&mut model, &found)?;
         let mut other = Self::new(model)?;
         other.take(&solution)?;
         *self = other;
@@ -205,6 +243,7 @@ impl Driver {
         self.stepper = stepper.map_err(cannot_resume)?;
         let frame = self.stepper.report(system);
         self.frame = frame.map_err(cannot_resume)?;
+        self.watch = Watch::new(&self.model, &self.stepper);
         let step = self.model.steps.get(self.frame.step_number);
         self.frame.step = step.map_or_else(String::new, |step| step.name.clone());
         Ok(())

@@ -251,6 +251,8 @@ pub enum Rule {
     AtMostOne(&'static [&'static str]),
     /// The first only together with the second.
     Needs(&'static str, &'static str),
+    /// Either the first, or all of the others and not the first.
+    Instead(&'static str, &'static [&'static str]),
     /// Both numbers: the first is at most the second.
     NotAbove(&'static str, &'static str),
     /// Both numbers: the first is less than the second.

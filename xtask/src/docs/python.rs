@@ -95,7 +95,7 @@ const PLACES: [&str; 3] = ["point", "center", "apex"];
 const WIDTH: usize = 120;
 
 /// Words that Python keeps for itself.
-const RESERVED: [&str; 2] = ["from", "with"];
+const RESERVED: [&str; 3] = ["from", "self", "with"];
 
 /// A class of the module.
 struct Class<'a> {

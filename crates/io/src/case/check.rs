@@ -76,7 +76,7 @@ impl Checker<'_> {
             }
         }
         for rule in words.rules {
-            self.rule(rule, table, words, heading.clone());
+            self.rule(rule, table, (words, &meant), heading.clone());
         }
     }
 
@@ -443,7 +443,7 @@ impl Checker<'_> {
         &mut self,
         rule: &Rule,
         table: &DeTable<'_>,
-        words: &'static Table,
+        (words, meant): (&'static Table, &[&'static str]),
         heading: Option<Range<usize>>,
     ) {
         let given = |keys: &'static [&'static str]| {
@@ -511,6 +511,27 @@ impl Checker<'_> {
                     );
                 }
             }
+            Rule::Instead(key, others) => match table.get_key_value(*key) {
+                Some((name, _)) => {
+                    for other in given(others) {
+                        let message =
+                            format!("`{key}` and `{}` exclude each other", other.get_ref());
+                        self.found.push(
+                            Diagnostic::error(&codes::CONTRADICTION, message)
+                                .at(&self.origins.place(other.span()), "delete this one")
+                                .at(&self.origins.place(name.span()), "or this one"),
+                        );
+                    }
+                }
+                None => {
+                    let is_given =
+                        |other: &&str| table.contains_key(*other) || meant.contains(other);
+                    let missing = others.iter().filter(|other| !is_given(other));
+                    for key in missing.filter_map(|other| words.key(other)) {
+                        self.missing(key, words, heading.clone());
+                    }
+                }
+            },
             Rule::NotAbove(..) | Rule::Below(..) => self.order(rule, table, words),
             Rule::AtLeastOne(_) => {}
         }

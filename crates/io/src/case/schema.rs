@@ -185,6 +185,9 @@ fn rule(rule: &Rule) -> Option<Value> {
             needs.insert((*key).to_owned(), json!([other]));
             json!({ "dependentRequired": needs })
         }
+        Rule::Instead(key, others) => {
+            json!({ "oneOf": [{ "required": [key] }, { "required": others }] })
+        }
         Rule::NotAbove(..) | Rule::Below(..) => return None,
     })
 }

@@ -394,6 +394,13 @@ codes! {
     ["supports and motions that go up to the edge of a contact", "a block whose sides are held, on another whose sides are"]
     ["nothing, where those forces are of no interest", "take the supports off the nodes of the contact"]
 
+    CONTACT_FOUND "S0416" Input "contact that begins in a run"
+    "With  all = true  the program finds what may touch: at the start, and after every increment. What it finds during the run \
+     is named with the time. Where the bodies were inside one another already, the increment was done again with them in \
+     contact."
+    ["bodies, or parts of one, came near one another"]
+    ["nothing needs to be done", "exclude what is not meant to touch:  exclude = [[\"a\", \"b\"]]"]
+
     PRESSED_APART "S0421" Input "contact pressure where the surfaces are apart"
     "Accepted states are audited point by point, whatever the method. Nodes carry contact pressure, and nowhere around them \
      is the gap zero: the pressure is not that of surfaces that touch."

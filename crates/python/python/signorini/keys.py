@@ -340,6 +340,34 @@ class ContactFriction(Table):
     tresca: Key[float | None, float] = Key("Shear traction wherever it touches", "number > 0.0")
 
 
+class ContactPair(Table):
+    """With `all`: what is different where two of them meet; of several that name a pair the last holds.
+
+    TOML: `contact.pair`.
+    """
+
+    _toml = "contact.pair"
+    between: Key[list[str] | None, Sequence[str]] = Key(
+        "Two bodies, groups, sets or materials, or \"any\"",
+        "list of text, 2 of them",
+    )
+    enforcement: Mixed[ContactEnforcement] = Mixed(
+        ContactEnforcement,
+        "How penetration is prevented",
+        "`\"auto\"` or a table",
+    )
+    friction: Mixed[ContactFriction] = Mixed(
+        ContactFriction,
+        "Coefficient of friction, or a table of what limits it",
+        "number ≥ 0.0 or a table",
+    )
+    method: Key[Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"] | None, Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"]] = Key(
+        "How the sides are discretized",
+        "`\"auto\"`, `\"node-to-node\"`, `\"node-to-segment\"`, `\"gauss-point\"`, `\"mortar\"`",
+    )
+    secondary: Key[str | None, str] = Key("The one of the two that carries the points", "text")
+
+
 class ContactRule(Table):
     """Points of gauss-point, along each direction of a facet.
 
@@ -427,6 +455,10 @@ class Contact(Table):
 
     _toml = "contact"
     active: Key[bool, bool] = Key("Whether it acts from the first step on", "`true` or `false`", default=True)
+    all: Key[bool | list[str] | None, bool | Sequence[str]] = Key(
+        "True: every outer face may touch every other, and pairs are found; a list: those of these bodies, groups or sets",
+        "`true` or `false` or list of text",
+    )
     area: Key[Literal["reference", "current", "adjacent", "opposite"], Literal["reference", "current", "adjacent", "opposite"]] = Key(
         "What points stand for: their area at the start, their present one, that of all outer faces at a node, or the facet opposite",
         "`\"reference\"`, `\"current\"`, `\"adjacent\"`, `\"opposite\"`",
@@ -442,6 +474,10 @@ class Contact(Table):
         "How penetration is prevented",
         "`\"auto\"` or a table",
         default="auto",
+    )
+    exclude: Key[list[str | list[str]] | None, Sequence[Any] | NDArray[Any]] = Key(
+        "With `all`: what touches nothing; a pair of names: what does not touch each other, or itself",
+        "list of text or list of text",
     )
     features: Key[Literal["auto", "faces", "edges"], Literal["auto", "faces", "edges"]] = Key(
         "Where points may rest: anywhere and a little beyond the rim, within faces only, or on the edges of the rim, too",
@@ -470,6 +506,11 @@ class Contact(Table):
         "`\"primary\"`, `\"secondary\"`, `\"nodal\"` or list of number",
         default="primary",
     )
+    pair: Items[ContactPair] = Items(
+        ContactPair,
+        "With `all`: what is different where two of them meet; of several that name a pair the last holds",
+        "list of a table",
+    )
     pairs: Key[Literal["nearest", "order"], Literal["nearest", "order"]] = Key(
         "Of node-to-node: which nodes meet, the nearest or those of one place in the two lists",
         "`\"nearest\"`, `\"order\"`",
@@ -489,6 +530,12 @@ class Contact(Table):
     secondary: Key[str | None, str] = Key(
         "The side that carries the points: the finer, softer or more curved one",
         "text",
+    )
+    self_: Key[bool, bool] = Key(
+        "With `all`: whether bodies may touch themselves",
+        "`true` or `false`",
+        default=True,
+        key="self",
     )
     sliding: Key[Literal["auto", "finite", "increment", "small"], Literal["auto", "finite", "increment", "small"]] = Key(
         "How far points slide: any way; or each keeps the tangent plane it meets at the start of the increment, or first. auto: \"small\" in linear geometry, else \"finite\"",
@@ -2038,18 +2085,22 @@ if TYPE_CHECKING:
     }, total=False)
     ContactKeys = TypedDict("ContactKeys", {
         "active": bool,
+        "all": bool | Sequence[str],
         "area": Literal["reference", "current", "adjacent", "opposite"],
         "basis": Literal["part", "whole"],
         "enforcement": Literal["auto"] | ContactEnforcement | Mapping[str, Any] | ContactLaw,
+        "exclude": Sequence[Any] | NDArray[Any],
         "features": Literal["auto", "faces", "edges"],
         "friction": float | ContactFriction | Mapping[str, Any] | FrictionLimit,
         "friction_history": Literal["place", "traction"],
         "method": Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"],
         "normals": Literal["primary", "secondary", "nodal"] | Sequence[float] | NDArray[Any],
+        "pair": Sequence[ContactPair | Mapping[str, Any]],
         "pairs": Literal["nearest", "order"],
         "passes": int,
         "reach": Literal["auto"] | float,
         "rule": ContactRule | Mapping[str, Any],
+        "self_": bool,
         "sliding": Literal["auto", "finite", "increment", "small"],
         "start": ContactStart | Mapping[str, Any],
         "tied": bool | ContactTied | Mapping[str, Any],

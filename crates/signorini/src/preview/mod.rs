@@ -2,6 +2,7 @@
 //! memory and time.
 
 mod cost;
+mod found;
 mod picture;
 
 pub use cost::Estimate;
@@ -65,7 +66,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     if !remedies.is_empty() {
         lines.push(format!("against locking: {}", remedies.join(", ")));
     }
-    for info in &model.contacts {
+    for info in model.contacts.iter().filter(|one| !one.is_found) {
         lines.push(format!(
             "contact {}: {}, {}, {}, {} against {} of size {}",
             info.name,
@@ -79,6 +80,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
         let contact = start.frame.contacts.iter().find(|c| c.name == info.name);
         lines.extend(contact.map(|c| gaps(c, info, model)));
     }
+    lines.extend(found::table(model, &start));
     let estimate = cost::estimate(model);
     lines.extend(estimate.iter().flat_map(|one| one.lines.iter().cloned()));
     Ok(Preview {

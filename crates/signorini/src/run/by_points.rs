@@ -54,7 +54,9 @@ fn contacts_by_mortar(model: &Model, finished: &Finished) -> Vec<String> {
         return Vec::new();
     }
     let all = model.contacts.iter();
-    let by_mortar = all.filter(|contact| contact.automatic && contact.method == "mortar");
+    // a contact that was found has no key of its own
+    let named = all.filter(|contact| !contact.is_found);
+    let by_mortar = named.filter(|contact| contact.automatic && contact.method == "mortar");
     by_mortar.map(|contact| contact.name.clone()).collect()
 }
 

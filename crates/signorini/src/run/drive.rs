@@ -1,5 +1,6 @@
 //! From a model to an ending: claims the folder, solves, saves, judges.
 
+use super::births::{self, Watch};
 use super::error::{OutputError, bad_checkpoint, cannot_resume};
 use super::expectations::Expectations;
 use super::fields::{Fields, Formats};
@@ -36,7 +37,7 @@ const VIEW: &str = include_str!("view.py");
 pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener) -> Finished {
     let clock = Instant::now();
     let prepared = Setting::check(model).and_then(|checked| Ok((checked, begin(model)?)));
-    let (checked, start) = match prepared {
+    let (checked, mut start) = match prepared {
         Ok(prepared) => prepared,
         Err(found) => return refuse(found, listener),
     };
@@ -59,6 +60,12 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
         Some(Ok(checkpoint)) => Some(checkpoint),
         Some(Err(error)) => return refuse(bad_checkpoint(&error).into(), listener),
     };
+    if let Some(from) = &from {
+        match births::take(model, &from.archive) {
+            Ok(again) => start = again.unwrap_or(start),
+            Err(found) => return refuse(found, listener),
+        }
+    }
     let (setting, expectations) = setting(model, options, tree, checked);
     let opened = match &from {
         None => Opened::create(setting, expectations, checkpoints),
@@ -150,7 +157,7 @@ fn setting(
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),
         limits: options.limits.clone(),
         first_steps: options.steps.filter(|n| *n < model.steps.len()),
-        has_contact: !model.contacts.is_empty(),
+        has_contact: !model.contacts.is_empty() || model.general.is_some(),
     };
     (setting, expectations)
 }
@@ -170,6 +177,8 @@ enum Ending {
     Solved,
     Stopped(Stop),
     Failed(Diagnostic),
+    /// The model could not be built again with contact that began.
+    NotBuilt(Diagnostics),
 }
 
 /// The exit code of a run and the status in its summary.
@@ -242,9 +251,10 @@ impl Run<'_, '_> {
         // its memory serves the run
         drop(start);
         let mut due = from.is_none();
+        let mut watch = Watch::new(self.model, &stepper);
         loop {
             if due && self.recorder.error.is_none() {
-                let saved = self.recorder.save(&stepper, &self.model.system);
+                let saved = self.recorder.save(&stepper, self.model);
                 if let Some(solution) = saved {
                     // in the way a new process does, so that both give the same bits
                     let settings = self.model.settings;
@@ -258,8 +268,16 @@ impl Run<'_, '_> {
             if let Some(stop) = self.recorder.stop {
                 return Ok(Ending::Stopped(stop));
             }
-            let Model { system, steps, .. } = &mut *self.model;
-            let outcome = stepper.run(system, steps, &mut self.recorder);
+            let outcome = match &mut watch {
+                None => {
+                    let Model { system, steps, .. } = &mut *self.model;
+                    stepper.run(system, steps, &mut self.recorder)
+                }
+                Some(watch) => match self.run_watched(watch, &mut stepper) {
+                    Ok(outcome) => outcome,
+                    Err(found) => return Ok(Ending::NotBuilt(found)),
+                },
+            };
             self.linear += stepper.take_linear_seconds();
             match outcome {
                 Ok(Outcome::Finished) => return Ok(Ending::Solved),
@@ -272,6 +290,36 @@ impl Run<'_, '_> {
                 Err(error) => return Ok(self.failed(&error, &stepper)),
             }
         }
+    }
+
+    /// One increment, after which contact may begin that nobody names.
+    fn run_watched(
+        &mut self,
+        watch: &mut Watch,
+        stepper: &mut Stepper,
+    ) -> Result<Result<Outcome, RunError>, Diagnostics> {
+        let Model {
+            system,
+            steps,
+            general: Some(general),
+            mesh,
+            ..
+        } = &mut *self.model
+        else {
+            let Model { system, steps, .. } = &mut *self.model;
+            return Ok(stepper.run(system, steps, &mut self.recorder));
+        };
+        let mut watched = watch.over(general, &mesh.points, &mut self.recorder);
+        let outcome = stepper.run(system, steps, &mut watched);
+        let births = std::mem::take(&mut watched.births);
+        if matches!(outcome, Ok(Outcome::Stopped))
+            && let Some(begun) = watch.go_on(self.model, stepper, &births)?
+        {
+            self.recorder.setting.layout = self.model.system.layout;
+            self.recorder
+                .tell(&event_of(&begun), Detail::Finding(&begun));
+        }
+        Ok(outcome)
     }
 
     fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {
@@ -307,7 +355,9 @@ impl Run<'_, '_> {
         let audited = self.recorder.audit.warnings(self.model);
         let wrong = self.report_unless_allowed(audited, &mut found);
         let (mut verdict, expectations) = self.judge(ending, &mut found);
-        let names: Vec<String> = self.model.contacts.iter().map(|c| c.name.clone()).collect();
+        let names: Vec<(String, bool)> = (self.model.contacts.iter())
+            .map(|contact| (contact.name.clone(), !contact.is_found))
+            .collect();
         let idle = self.recorder.idle.notes(&names, &self.model.mesh);
         self.report_unless_allowed(idle, &mut found);
         let far = drift::warnings(&self.recorder.drifts, self.model);
@@ -344,6 +394,13 @@ impl Run<'_, '_> {
                     self.report(limit, found);
                 }
                 (Verdict::new(stop.exit_code(), stop.status()), Vec::new())
+            }
+            Ending::NotBuilt(more) => {
+                let code = more.exit_code().unwrap_or(5);
+                for one in more {
+                    self.report(one, found);
+                }
+                (Verdict::new(code, "model ill-posed"), Vec::new())
             }
             Ending::Failed(one) => {
                 let code = one.code.class.exit_code();
@@ -497,8 +554,10 @@ impl Run<'_, '_> {
             let free = contact.filter(|contact| contact.tied.is_none());
             free.is_some_and(|contact| contact.acting(case.steps.iter()).any(|acts| acts))
         };
-        let names = self.model.contacts.iter().map(|c| c.name.clone());
-        let names: Vec<(String, bool)> = names.map(|name| (name.clone(), acts(&name))).collect();
+        let names = self.model.contacts.iter();
+        let names: Vec<(String, bool)> = names
+            .map(|one| (one.name.clone(), !one.is_found && acts(&one.name)))
+            .collect();
         let mesh = &self.model.mesh;
         let position = |node: u32| mesh.points.get(node as usize).copied().unwrap_or_default();
         self.recorder.closure.notes(&names, mesh, position)

@@ -34,7 +34,8 @@ impl History {
     /// # Errors
     /// Entries of `[[output.history]]` that name nothing.
     pub fn new(model: &Model) -> Result<Self, Diagnostics> {
-        let contacts: Vec<&str> = model.contacts.iter().map(|c| c.name.as_str()).collect();
+        let contacts = contacts(model);
+        let contacts: Vec<&str> = contacts.iter().map(String::as_str).collect();
         let references: Vec<&str> = model.references.iter().map(|r| r.name.as_str()).collect();
         let standard = history_columns(&contacts, &references, &[]);
         let mut found = Diagnostics::new();
@@ -83,10 +84,8 @@ impl History {
     fn values(&self, frame: &Frame) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.columns.len());
         for name in &self.contacts {
-            match frame.contacts.iter().find(|c| c.name == *name) {
-                Some(contact) => values.extend(of_contact(contact)),
-                None => values.extend([0.0; CONTACT_COLUMNS.len()]),
-            }
+            let of_name = frame.contacts.iter().filter(|c| is_of(&c.name, name));
+            values.extend(of_name.map(of_contact).reduce(together).unwrap_or_default());
         }
         for &body in &self.references {
             let rigid = frame.rigid.get(body as usize).copied();
@@ -103,11 +102,113 @@ impl History {
     }
 }
 
+/// The contacts that have columns: those of the model, and where pairs are found those that the case asks for, which may
+/// begin later. Pairs of one name have one set of columns.
+fn contacts(model: &Model) -> Vec<String> {
+    let of_model = model.contacts.iter().map(|c| c.name.clone());
+    let Some(general) = &model.general else {
+        return of_model.collect();
+    };
+    let asked = model.case.output.history.iter();
+    let asked = asked.filter_map(|entry| match &entry.source {
+        HistorySource::Contact(name) => Some(name.value.clone()),
+        _ => None,
+    });
+    let expected = model.case.expectations.iter();
+    let expected = expected.filter_map(|one| Some(one.what.value.rsplit_once('.')?.0.to_owned()));
+    let later = asked
+        .chain(expected)
+        .filter(|name| general.may_be_called(name));
+    let mut all: Vec<String> = Vec::new();
+    for name in of_model.chain(later) {
+        let name = name.split_once('#').map_or(&*name, |(name, _)| name);
+        if !all.iter().any(|known| known == name) {
+            all.push(name.to_owned());
+        }
+    }
+    all
+}
+
+/// Whether a contact is one of those that a name stands for: the name, or the name with a number.
+fn is_of(contact: &str, name: &str) -> bool {
+    let rest = contact.strip_prefix(name);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('#'))
+}
+
+/// What two contacts of one name are together.
+fn together(
+    a: [f64; CONTACT_COLUMNS.len()],
+    b: [f64; CONTACT_COLUMNS.len()],
+) -> [f64; CONTACT_COLUMNS.len()] {
+    let [
+        fx,
+        fy,
+        fz,
+        mx,
+        my,
+        mz,
+        pressure,
+        gap,
+        slip,
+        open,
+        stick,
+        slide,
+        x,
+        y,
+        z,
+        work,
+    ] = a;
+    let [
+        gx,
+        gy,
+        gz,
+        nx,
+        ny,
+        nz,
+        other,
+        nearest,
+        far,
+        apart,
+        hold,
+        move_,
+        u,
+        v,
+        w,
+        spent,
+    ] = b;
+    let weight = |f: [f64; 3]| f.iter().map(|f| f * f).sum::<f64>().sqrt();
+    let (of_a, of_b) = (weight([fx, fy, fz]), weight([gx, gy, gz]));
+    let part = if of_a + of_b > 0.0 {
+        of_b / (of_a + of_b)
+    } else {
+        0.0
+    };
+    let mean = |a: f64, b: f64| a + part * (b - a);
+    [
+        fx + gx,
+        fy + gy,
+        fz + gz,
+        mx + nx,
+        my + ny,
+        mz + nz,
+        pressure.max(other),
+        gap.min(nearest),
+        slip.max(far),
+        open + apart,
+        stick + hold,
+        slide + move_,
+        mean(x, u),
+        mean(y, v),
+        mean(z, w),
+        work + spent,
+    ]
+}
+
 fn of_contact(c: &ContactFrame) -> [f64; CONTACT_COLUMNS.len()] {
     let Resultant {
         force: f,
         moment: m,
-    } = c.secondary;
+    } = c.reported();
     let p = c.center;
     [
         f.x,
@@ -163,7 +264,7 @@ fn choose(
     };
     match source {
         HistorySource::Contact(name) => {
-            let known = names(model.contacts.iter().map(|c| &c.name).collect());
+            let known = contacts(model);
             copy(name, &known, &CONTACT_COLUMNS)
         }
         HistorySource::Reference(name) => {

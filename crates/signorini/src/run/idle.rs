@@ -56,11 +56,12 @@ impl Idle {
         }
     }
 
-    /// A note for each contact that has such rows; `names` are those of frames.
-    pub fn notes(&self, names: &[String], mesh: &Mesh) -> Diagnostics {
+    /// A note for each contact that has such rows and whose sides somebody chose; `names` are those of frames, each with
+    /// that.
+    pub fn notes(&self, names: &[(String, bool)], mesh: &Mesh) -> Diagnostics {
         let mut found = Diagnostics::new();
-        for (rows, name) in self.contacts.iter().zip(names) {
-            if !rows.is_empty() {
+        for (rows, (name, is_chosen)) in self.contacts.iter().zip(names) {
+            if *is_chosen && !rows.is_empty() {
                 found.push(note(rows, name, mesh));
             }
         }
@@ -121,7 +122,7 @@ mod tests {
             node_labels: vec![10, 20],
             ..Mesh::default()
         };
-        let text = format!("{:?}", idle.notes(&["c".into()], &mesh));
+        let text = format!("{:?}", idle.notes(&[("c".into(), true)], &mesh));
         for said in [
             "2 nodes without pressure",
             "7 nodes without friction along y",
@@ -130,6 +131,6 @@ mod tests {
             assert!(text.contains(said), "{text}");
         }
         let nothing = Idle::restore(&[0.0, 0.0, 0.0, 0.0, -1.0]);
-        assert!(nothing.notes(&["c".into()], &mesh).is_empty());
+        assert!(nothing.notes(&[("c".into(), true)], &mesh).is_empty());
     }
 }

@@ -16,6 +16,7 @@
 //! To add a file: a line in `tree`, and its writing in `recorder`.
 
 mod audit;
+pub(crate) mod births;
 mod by_points;
 mod cells;
 mod closure;

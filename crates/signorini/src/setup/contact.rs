@@ -36,7 +36,25 @@ pub(super) fn acting(case: &Case) -> impl Iterator<Item = &Contact> {
     contacts.filter(move |contact| contact.active || begins(contact))
 }
 
-pub(super) fn contact(
+/// The contacts that act, with their sides.
+pub(super) fn contacts(
+    case: &Case,
+    names: &Names<'_>,
+    surfaces: &Surfaces,
+    own: &Own,
+    found: &mut Diagnostics,
+) -> Vec<ContactPart> {
+    let contacts = acting(case).filter_map(|one| {
+        let part = contact(one, &case.steps, names, surfaces, own, found)?;
+        Some(ContactPart {
+            smooths: case.output.smooth_pressures,
+            ..part
+        })
+    });
+    contacts.collect()
+}
+
+fn contact(
     part: &Contact,
     steps: &[case::Step],
     names: &Names<'_>,
@@ -91,6 +109,7 @@ pub(super) fn contact(
         start: start(&part.start, names, found),
         reach: part.reach,
         active: part.active,
+        is_reversed: part.is_reversed,
         ..ContactPart::new(part.name.value.clone(), secondary, primary)
     })
 }

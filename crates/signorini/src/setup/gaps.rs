@@ -98,7 +98,8 @@ pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Di
                 .help("where the overlap is an interference fit:  allow = [\"S0411\"]"),
             );
         }
-        if let Some(edges) = &start.open_edges {
+        // what is beyond the edges of a side that was found is found, too, where it comes near
+        if let Some(edges) = start.open_edges.as_ref().filter(|_| !info.is_found) {
             let label = |n: u32| {
                 mesh.node_labels
                     .get(n as usize)
@@ -132,7 +133,7 @@ pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Di
                 .help("where the edges do not roll:  allow = [\"S0414\"]"),
             );
         }
-        if let Some(bent) = &start.bent {
+        if let Some(bent) = start.bent.as_ref().filter(|_| !info.is_found) {
             let text = format!(
                 "contact \"{}\": gaps of up to {} come from straight facets and are taken as {}",
                 info.name,

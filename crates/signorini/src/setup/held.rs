@@ -65,7 +65,7 @@ pub(super) fn by_contact(
         "nothing else holds it: stabilize = false"
     });
     if stabilized {
-        for (contact, gap) in open.iter().take(LISTED) {
+        for (contact, gap) in open.iter().filter(|(one, _)| !one.is_found).take(LISTED) {
             message = message.help(format!(
                 "where the gap is meant to be closed:  start = {{ close_gaps_below = {} }}  of contact \"{}\"",
                 short(1.01 * gap),

@@ -32,6 +32,8 @@ pub struct ContactInfo {
     pub facet_size: f64,
     /// Gaps and overlaps at the start.
     pub start: StartSummary,
+    /// Whether the program found it, where nobody names pairs.
+    pub is_found: bool,
 }
 
 /// A reference or rigid body, as histories name it.
@@ -72,6 +74,7 @@ pub(super) fn contacts(case: &Case, summaries: &[ContactSummary]) -> Vec<Contact
             nfacet: summary.nfacet,
             facet_size: summary.facet_size,
             start: summary.start,
+            is_found: first.is_some_and(|one| one.is_found),
         }
     };
     summaries.iter().map(one).collect()

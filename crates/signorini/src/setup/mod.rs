@@ -11,6 +11,7 @@ mod constraints;
 mod contact;
 mod cuts;
 pub(crate) mod gaps;
+pub(crate) mod general;
 mod held;
 mod idealisation;
 mod info;
@@ -19,6 +20,7 @@ mod mesh;
 mod names;
 mod nonlinear;
 mod orientation;
+mod origin;
 mod own;
 mod prints;
 mod refused;
@@ -43,11 +45,13 @@ pub use submodel::read_motions_of;
 use crate::own::Own;
 use carriers::Carriers;
 use cuts::Cuts;
+use general::{General, Pair, Source};
 use names::Names;
+use origin::Origin;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_io::case::{Case, FreeMotions, Stabilize};
 use signorini_io::deck;
-use signorini_io::diagnostic::{Diagnostics, Spanned};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::model::{LockingSummary, Parts, Unheld};
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{Step, StepperSettings};
@@ -82,6 +86,8 @@ pub struct Model {
     pub case: Case,
     /// What is unusual.
     pub warnings: Diagnostics,
+    /// What meets, where nobody names pairs.
+    pub(crate) general: Option<General>,
     sets: BTreeMap<String, Vec<NodeId>>,
     by_label: BTreeMap<u64, NodeId>,
     /// Cells of bodies of revolution.
@@ -137,31 +143,74 @@ pub fn build(case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
 /// Names that the program does not have; names that the mesh does not have, sets of the wrong kind, and what makes no well-posed model: all messages at once
 /// as far as they do not follow from each other.
 pub fn build_with(case: Case, mesh: Mesh, own: &Own) -> Result<Model, Diagnostics> {
-    if !deck::is_of_deck(&case) {
-        return build_of(case, mesh, own);
+    build_in_words(case, mesh, own, None)
+}
+
+impl Model {
+    /// The same model with contact of these pairs, in place of those that were found at the start.
+    ///
+    /// # Errors
+    /// As [`build_with`]; pairs of another model.
+    pub(crate) fn with_pairs(&self, pairs: &[Pair]) -> Result<Self, Diagnostics> {
+        let Some(origin) = self.general.as_ref().map(|general| &general.origin) else {
+            let message = "pairs that were found belong to a case with  all = true";
+            return Err(Diagnostic::error(&codes::CANNOT_RESUME, message).into());
+        };
+        let Origin { case, mesh, own } = origin.clone();
+        let mut model = build_in_words(case, Mesh::clone(&mesh), &own, Some(pairs))?;
+        model.name.clone_from(&self.name);
+        Ok(model)
     }
-    let mut model = build_of(case, mesh, own).map_err(deck::in_words)?;
+}
+
+/// Builds a model, with messages in the words of what the case was read from.
+fn build_in_words(
+    case: Case,
+    mesh: Mesh,
+    own: &Own,
+    pairs: Option<&[Pair]>,
+) -> Result<Model, Diagnostics> {
+    if !deck::is_of_deck(&case) {
+        return build_of(case, mesh, own, pairs);
+    }
+    let mut model = build_of(case, mesh, own, pairs).map_err(deck::in_words)?;
     model.warnings = deck::in_words(std::mem::take(&mut model.warnings));
     Ok(model)
 }
 
-fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnostics> {
+fn build_of(
+    mut case: Case,
+    mut mesh: Mesh,
+    own: &Own,
+    pairs: Option<&[Pair]>,
+) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
     own::check(&case, own, &mut found);
     // what is lacking draws other messages after it
     if found.has_errors() {
         return Err(found);
     }
+    let origin = Origin::new(&case, &mesh, own);
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
-    let names = Names::new(&case, &mesh, &mut found);
+    let mut names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
     let settings = settings::settings(&case.solver, &mut found);
     let prints = prints::prints(&case, &names, &mut found);
     let places = (&names, &carriers, &cuts);
-    let (parts, start) = match parts(&case, &mesh, own, places, &mut found) {
+    let (mut parts, start) = match parts(&case, &mesh, own, places, &mut found) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
+    let places = (&names, &cuts);
+    let general = find(&case, places, &parts, (origin, pairs), &mut found);
+    if let Some(general) = &general {
+        general.hand_over(&mut case, &mut names);
+        let surfaces = Surfaces::new(&case, &mesh, &carriers, own, &mut found);
+        parts.contacts = contact::contacts(&case, &names, &surfaces, own, &mut found);
+    }
+    if found.has_errors() {
+        return Err(found);
+    }
     case.initial_temperature = start.map(Spanned::from);
     let left_out = bodies::left_out(&case, &names, &mesh, &parts.bodies);
     let mut model = match signorini_mechanics::model::Model::assemble(parts) {
@@ -178,9 +227,6 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
     let solids = mesh.cells(case.model.space.ndim());
     let revolves = |cell: &CellId| names.plane(*cell) == Idealisation::Axisymmetric;
     let revolving = solids.filter(revolves).collect();
-    if found.has_errors() {
-        return Err(found);
-    }
     found.append(bodies::stiff_elements(&case, &names, &mesh));
     if let Some(one) = left_out {
         found.push(one);
@@ -225,11 +271,43 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
         by_label,
         revolving,
         hoops,
+        general,
         mesh: Arc::new(mesh),
     })
 }
 
-/// Everything a model is made of, and the temperature at the start; nothing where faults leave none of it.
+/// What meets where nobody names pairs: these pairs, or what is found at the start.
+fn find(
+    case: &Case,
+    (names, cuts): (&Names<'_>, &Cuts),
+    parts: &Parts<'_>,
+    (origin, pairs): (Option<Origin>, Option<&[Pair]>),
+    found: &mut Diagnostics,
+) -> Option<General> {
+    let (settings, origin) = case.general.as_ref().zip(origin)?;
+    let cut: Vec<(NodeId, NodeId)> = cuts.pairs().collect();
+    let source = &Source {
+        case,
+        mesh: parts.mesh,
+        names,
+        bodies: &parts.bodies,
+        steps: &parts.steps,
+        cut: &cut,
+    };
+    let mut general = General::new(settings, source, origin, found)?;
+    match pairs {
+        None => general.start(&parts.mesh.points),
+        Some(pairs) if general.take(pairs) => {}
+        Some(_) => {
+            let message = "the contacts that were found are those of another model";
+            found.push(Diagnostic::error(&codes::CANNOT_RESUME, message));
+        }
+    }
+    Some(general)
+}
+
+/// What a model is made of but for contacts that are found, and the temperature at the start; nothing where faults leave none
+/// of it.
 fn parts<'a>(
     case: &Case,
     mesh: &'a Mesh,
@@ -252,12 +330,7 @@ fn parts<'a>(
     parts.stabilize = case.solver.stabilize == Stabilize::Auto;
     parts.hold_free = case.solver.free_motions == FreeMotions::Hold;
     let surfaces = Surfaces::new(case, mesh, carriers, own, found);
-    parts.contacts = contact::acting(case)
-        .filter_map(|c| contact::contact(c, &case.steps, names, &surfaces, own, found))
-        .collect();
-    for contact in &mut parts.contacts {
-        contact.smooths = case.output.smooth_pressures;
-    }
+    parts.contacts = contact::contacts(case, names, &surfaces, own, found);
     let (temperature, start) = temperature::at_start(case, names, mesh, found);
     parts.temperature = temperature;
     let steps = steps::Builder {

@@ -278,6 +278,20 @@ impl<'a> Names<'a> {
         set
     }
 
+    /// What a name stands for, without a message.
+    pub fn set(&self, name: &str) -> Option<&Set> {
+        self.sets.get(name)
+    }
+
+    /// Adds a set of faces that the program found.
+    pub fn add_faces(&mut self, (name, faces): (String, Vec<Face>)) {
+        let set = Set {
+            faces,
+            ..Set::default()
+        };
+        self.sets.insert(name, set);
+    }
+
     /// The cells of a set that a body can be made of.
     pub fn cells(&self, name: &Name, found: &mut Diagnostics) -> Cells {
         let Some(set) = self.get(name, found) else {

@@ -58,7 +58,8 @@ impl Builder<'_> {
             let motions = part.changes.len() + part.temperatures.len() + part.activity.len();
             let changes = motions + part.loads.len() + step.contacts.len();
             // overlaps at the start are resolved in the first step
-            let begins = number == 0 && !self.case.contacts.is_empty();
+            let has_contact = !self.case.contacts.is_empty() || self.case.general.is_some();
+            let begins = number == 0 && has_contact;
             if changes == 0 && !begins && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
             }

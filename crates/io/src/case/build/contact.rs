@@ -11,21 +11,11 @@ const ROUGH: f64 = 2.0;
 
 impl Builder<'_> {
     pub(super) fn contact(&mut self, fields: Fields<'_>, place: Place) -> Contact {
-        let method = fields.text("method");
         let contact = Contact {
             name: fields.text("name"),
             secondary: fields.text("secondary"),
             primary: fields.text("primary"),
-            method: Spanned::new(
-                match method.value.as_str() {
-                    "node-to-node" => Method::NodeToNode,
-                    "node-to-segment" => Method::NodeToSegment,
-                    "gauss-point" => Method::GaussPoint,
-                    "mortar" => Method::Mortar,
-                    _ => Method::Auto,
-                },
-                method.place,
-            ),
+            method: method(fields),
             two_pass: fields.count("passes") == 2,
             rule: self.rule(fields),
             area: match fields.text("area").value.as_str() {
@@ -35,13 +25,7 @@ impl Builder<'_> {
                 _ => Area::Reference,
             },
             enforcement: self.enforcement(fields),
-            per: fields.table("enforcement").text_if("per").map(|word| {
-                if word.value == "node" {
-                    Per::Node
-                } else {
-                    Per::Area
-                }
-            }),
+            per: per(fields),
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
             sliding: match fields.text("sliding").value.as_str() {
@@ -69,6 +53,8 @@ impl Builder<'_> {
             },
             reach: fields.number_if("reach").map(|reach| reach.value),
             active: fields.flag("active"),
+            is_reversed: false,
+            is_found: false,
             place,
         };
         self.sides(&contact);
@@ -302,7 +288,7 @@ impl Builder<'_> {
         }
     }
 
-    fn enforcement(&mut self, fields: Fields<'_>) -> Enforcement {
+    pub(super) fn enforcement(&mut self, fields: Fields<'_>) -> Enforcement {
         let given = fields.get("enforcement");
         if !given.is_some_and(|value| value.get_ref().is_table()) {
             return Enforcement::Auto;
@@ -391,7 +377,7 @@ impl Builder<'_> {
     }
 
     /// Friction; none where its limit is zero.
-    fn friction(&mut self, fields: Fields<'_>) -> Option<Friction> {
+    pub(super) fn friction(&mut self, fields: Fields<'_>) -> Option<Friction> {
         let number = fields.number_if("friction");
         let table = fields.table("friction");
         let coefficient = table.number_if("static").or_else(|| table.number_if(MU));
@@ -456,6 +442,26 @@ impl Builder<'_> {
             place,
         }
     }
+}
+
+pub(super) fn method(fields: Fields<'_>) -> Spanned<Method> {
+    let word = fields.text("method");
+    let method = match word.value.as_str() {
+        "node-to-node" => Method::NodeToNode,
+        "node-to-segment" => Method::NodeToSegment,
+        "gauss-point" => Method::GaussPoint,
+        "mortar" => Method::Mortar,
+        _ => Method::Auto,
+    };
+    Spanned::new(method, word.place)
+}
+
+pub(super) fn per(fields: Fields<'_>) -> Option<Per> {
+    let word = fields.table("enforcement").text_if("per")?;
+    Some(match word.value.as_str() {
+        "node" => Per::Node,
+        _ => Per::Area,
+    })
 }
 
 fn tied(fields: Fields<'_>) -> Option<Tied> {

@@ -4,6 +4,7 @@ mod bodies;
 mod builder;
 mod chosen;
 mod contact;
+mod general;
 mod geometry;
 mod names;
 mod run;
@@ -123,8 +124,10 @@ impl Builder<'_> {
             contacts: root
                 .tables("contact")
                 .into_iter()
+                .filter(|(fields, _)| !fields.has("all"))
                 .map(|(fields, place)| self.contact(fields, place))
                 .collect(),
+            general: self.general(root.tables("contact")),
             constraints: root
                 .tables("constraint")
                 .into_iter()

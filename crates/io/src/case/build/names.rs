@@ -262,7 +262,10 @@ impl Builder<'_> {
         rigid.extend(&points);
         for history in &case.output.history {
             match &history.source {
-                HistorySource::Contact(name) if known("contact") => {
+                // contacts that are found later have names, too
+                HistorySource::Contact(name)
+                    if known("contact") && (case.general.is_none() || !name.contains('-')) =>
+                {
                     self.reference("contact", name, &contacts)
                 }
                 HistorySource::Reference(name) if known("body") && known("reference") => {
@@ -358,7 +361,7 @@ impl Builder<'_> {
                 .help("write  method = \"node-to-segment\"  and  passes = 1"),
             );
         }
-        let idle = case.surfaces.iter();
+        let idle = case.surfaces.iter().filter(|_| case.general.is_none());
         for surface in idle.filter(|one| !used.contains(one.name.as_str())) {
             self.found.push(
                 Diagnostic::warning(

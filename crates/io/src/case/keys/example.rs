@@ -121,8 +121,12 @@ fn needed(table: &'static Table) -> Vec<&'static Key> {
         Rule::ExactlyOne(keys) | Rule::AtLeastOne(keys) => first(keys),
         _ => None,
     });
-    let one_of: Vec<&str> = one_of.collect();
-    let is_needed = |key: &&Key| key.default == Default::Required || one_of.contains(&key.name);
+    let instead = table.rules.iter().filter_map(|rule| match rule {
+        Rule::Instead(_, others) => Some(*others),
+        _ => None,
+    });
+    let named: Vec<&str> = one_of.chain(instead.flatten().copied()).collect();
+    let is_needed = |key: &&Key| key.default == Default::Required || named.contains(&key.name);
     table.keys.iter().filter(is_needed).collect()
 }
 

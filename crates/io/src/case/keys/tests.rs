@@ -22,7 +22,10 @@ fn keys_are_found_by_their_path_its_end_and_their_words() {
         assert_eq!(found(query).key.path, path, "{query}");
     }
     let friction = found("friction");
-    assert_eq!(friction.others, ["step.contact.friction"]);
+    assert_eq!(
+        friction.others,
+        ["contact.pair.friction", "step.contact.friction"]
+    );
     assert_eq!(friction.key.default.as_deref(), Some("0.0"));
     assert!(
         friction

@@ -51,6 +51,10 @@ pub struct Contact {
     pub reach: Option<f64>,
     /// Whether it acts from the first step on.
     pub active: bool,
+    /// Whether its forces are reported as those on the primary side.
+    pub is_reversed: bool,
+    /// Whether the program found it, where nobody names pairs: then it is written nowhere.
+    pub is_found: bool,
     /// Where it was written.
     pub place: Place,
 }
@@ -79,6 +83,8 @@ impl Contact {
             pairs: Pairs::Nearest,
             reach: None,
             active: true,
+            is_reversed: false,
+            is_found: false,
             place,
         }
     }
@@ -374,3 +380,41 @@ pub struct ContactChange {
     /// Where it was written.
     pub place: Place,
 }
+
+/// Contact of everything with everything: pairs of surfaces are found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct General {
+    /// Bodies, groups and sets that may touch; empty: all.
+    pub of: Vec<Name>,
+    /// Whether bodies may touch themselves.
+    pub with_itself: bool,
+    /// What touches nothing, and pairs that do not touch each other.
+    pub exclude: Vec<Excluded>,
+    /// What all pairs have in common; it names no sides.
+    pub common: Contact,
+    /// What is different where two meet; of several that name a pair the last holds.
+    pub pairs: Vec<GeneralPair>,
+}
+
+/// What touches nothing; with a second name, two that do not touch each other.
+pub type Excluded = (Name, Option<Name>);
+
+/// What is different where two bodies meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GeneralPair {
+    /// The two: bodies, groups, sets, materials, or [`ANY`].
+    pub between: [Name; 2],
+    /// Its friction; outside none: as of all.
+    pub friction: Option<Option<Friction>>,
+    /// How penetration is prevented; none: as of all.
+    pub enforcement: Option<(Enforcement, Option<Per>)>,
+    /// How the sides are discretized; none: as of all.
+    pub method: Option<Spanned<Method>>,
+    /// The one that carries the points.
+    pub secondary: Option<Name>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// The word for everything, in pairs.
+pub const ANY: &str = "any";

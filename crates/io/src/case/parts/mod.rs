@@ -59,6 +59,8 @@ pub struct Case {
     pub surfaces: Vec<Surface>,
     /// Pairs of surfaces that may touch.
     pub contacts: Vec<Contact>,
+    /// Contact of everything with everything.
+    pub general: Option<General>,
     /// Constraints between displacements.
     pub constraints: Vec<Constraint>,
     /// Temperature of everything at the start; none: where no material expands, or as the build finds it.

@@ -1,17 +1,10 @@
 //! Contacts, and their changes in a step.
 
 use super::super::parts::*;
-use super::write::{Entries, Value, chosen, list, values};
+use super::write::{Entries, Value, chosen, list, tables, values};
 use crate::diagnostic::Spanned;
 
 pub(super) fn contact(contact: &Contact) -> Entries {
-    let method = match *contact.method {
-        Method::Auto => "auto",
-        Method::NodeToNode => "node-to-node",
-        Method::NodeToSegment => "node-to-segment",
-        Method::GaussPoint => "gauss-point",
-        Method::Mortar => "mortar",
-    };
     let area = match contact.area {
         Area::Reference => "reference",
         Area::Current => "current",
@@ -39,7 +32,7 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         ("name", (&contact.name.value).into()),
         ("secondary", (&contact.secondary.value).into()),
         ("primary", (&contact.primary.value).into()),
-        ("method", method.into()),
+        ("method", method(*contact.method).into()),
         ("passes", passes.into()),
         ("area", area.into()),
         ("enforcement", enforcement(contact)),
@@ -76,6 +69,68 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         Some(_) => entries.extend(closing(&contact.start).map(|start| ("start", start))),
     }
     entries
+}
+
+pub(super) fn general(general: &General) -> Entries {
+    let names = |names: &[Name]| list(names.iter().map(|name| &name.value));
+    let exclude = |(one, other): &Excluded| match other {
+        Some(other) => names(&[one.clone(), other.clone()]),
+        None => (&one.value).into(),
+    };
+    let mut entries = contact(&general.common);
+    let own = ["name", "secondary", "primary", "passes", "tied", "reach"];
+    entries.retain(|(key, _)| !own.contains(key));
+    let of = match general.of.is_empty() {
+        true => true.into(),
+        false => names(&general.of),
+    };
+    entries.extend([("all", of), ("self", general.with_itself.into())]);
+    if !general.exclude.is_empty() {
+        let all = general.exclude.iter().map(exclude);
+        entries.push(("exclude", Value::List(all.collect())));
+    }
+    if !general.pairs.is_empty() {
+        entries.push(("pair", tables(&general.pairs, general_pair)));
+    }
+    entries
+}
+
+fn general_pair(pair: &GeneralPair) -> Entries {
+    let like = |pair: &GeneralPair| {
+        let (enforcement, per) = pair
+            .enforcement
+            .clone()
+            .unwrap_or((Enforcement::Auto, None));
+        let [one, other] = pair.between.clone();
+        let mut like = Contact::new(Name::default(), one, other, pair.place.clone());
+        (like.enforcement, like.per) = (enforcement, per);
+        like
+    };
+    let between = list(pair.between.iter().map(|name| &name.value));
+    let mut entries = vec![("between", between)];
+    if let Some(given) = &pair.friction {
+        entries.push(("friction", friction(given.as_ref())));
+    }
+    if pair.enforcement.is_some() {
+        entries.push(("enforcement", enforcement(&like(pair))));
+    }
+    if let Some(given) = &pair.method {
+        entries.push(("method", method(**given).into()));
+    }
+    if let Some(given) = &pair.secondary {
+        entries.push(("secondary", (&given.value).into()));
+    }
+    entries
+}
+
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::Auto => "auto",
+        Method::NodeToNode => "node-to-node",
+        Method::NodeToSegment => "node-to-segment",
+        Method::GaussPoint => "gauss-point",
+        Method::Mortar => "mortar",
+    }
 }
 
 fn auto(number: Option<f64>) -> Value {

@@ -11,7 +11,7 @@ mod write;
 
 use super::parts::*;
 use super::vocabulary::Vocabulary;
-use contact::contact;
+use contact::{contact, general};
 use model::{
     body, constraint, initial, local_axes, material, mesh, model, orientation, reference,
     set_content, spring, thickness,
@@ -26,6 +26,14 @@ pub fn resolved(case: &Case, vocabulary: &Vocabulary) -> String {
     let mut text = String::new();
     write_table(&mut text, vocabulary.case, "", &tree(case));
     text
+}
+
+/// Contacts as they are written: those that were found are found again.
+fn contacts(case: &Case) -> Value {
+    let named = case.contacts.iter().filter(|one| !one.is_found);
+    let named = named.map(contact);
+    let all = named.chain(case.general.iter().map(general));
+    Value::Tables(all.map(|entries| (None, entries)).collect())
 }
 
 fn tree(case: &Case) -> Entries {
@@ -63,7 +71,7 @@ fn tree(case: &Case) -> Entries {
         ("thickness", tables(&case.thicknesses, thickness)),
         ("spring", tables(&case.springs, spring)),
         ("surface", tables(&case.surfaces, surface)),
-        ("contact", tables(&case.contacts, contact)),
+        ("contact", contacts(case)),
         ("constraint", tables(&case.constraints, constraint)),
     ]);
     let initial = initial(case);

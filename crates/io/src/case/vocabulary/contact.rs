@@ -7,21 +7,37 @@ pub(super) static CONTACT: Table = Table {
     heading: "[[contact]]",
     doc: "pairs of surfaces that may touch",
     keys: &[
-        key("name", Shape::Text, "its name, in results and messages").required(),
+        key("name", Shape::Text, "its name, in results and messages"),
         key(
             "secondary",
             Shape::Text,
             "the side that carries the points: the finer, softer or more curved one",
         )
-        .required()
         .hints(&["slave", "source"]),
         key(
             "primary",
             Shape::Text,
             "the side they may not pass through: a set, a [[surface]], or \"self\"",
         )
-        .required()
         .hints(&["master", "target"]),
+        key(
+            "all",
+            Shape::Either(&[Shape::Flag, Shape::List(&Shape::Text, 1, MANY)]),
+            "true: every outer face may touch every other, and pairs are found; a list: those of these bodies, groups or sets",
+        )
+        .hints(&["general", "auto"]),
+        key(
+            "self",
+            Shape::Flag,
+            "with `all`: whether bodies may touch themselves",
+        )
+        .or(Default::Flag(true)),
+        key(
+            "exclude",
+            Shape::List(&NAMES, 1, MANY),
+            "with `all`: what touches nothing; a pair of names: what does not touch each other, or itself",
+        )
+        .hints(&["exclusions"]),
         key(
             "method",
             Shape::Choice(METHODS),
@@ -113,8 +129,49 @@ pub(super) static CONTACT: Table = Table {
             "whether it acts from the first step on",
         )
         .or(Default::Flag(true)),
+        key("pair", Shape::Tables(&PAIR), PAIR.doc),
     ],
-    rules: &[],
+    rules: &[
+        Rule::Instead("all", &["name", "secondary", "primary"]),
+        Rule::Needs("self", "all"),
+        Rule::Needs("exclude", "all"),
+        Rule::Needs("pair", "all"),
+    ],
+};
+
+static PAIR: Table = Table {
+    heading: "[[contact.pair]]",
+    doc: "with `all`: what is different where two of them meet; of several that name a pair the last holds",
+    keys: &[
+        key(
+            "between",
+            Shape::List(&Shape::Text, 2, 2),
+            "two bodies, groups, sets or materials, or \"any\"",
+        )
+        .required(),
+        FRICTION_KEY,
+        key(
+            "enforcement",
+            Shape::Either(ENFORCEMENTS),
+            "how penetration is prevented",
+        ),
+        key(
+            "method",
+            Shape::Choice(METHODS),
+            "how the sides are discretized",
+        ),
+        key(
+            "secondary",
+            Shape::Text,
+            "the one of the two that carries the points",
+        ),
+    ],
+    rules: &[Rule::AtLeastOne(&[
+        "friction",
+        "enforcement",
+        "method",
+        "secondary",
+    ])],
 };
 const METHODS: &[Choice] = &[
     word("auto"),

@@ -1,15 +1,16 @@
 //! Checkpoints: the solution, and how far the files had got.
 
 use super::Recorder;
+use crate::run::births;
 use crate::run::error::OutputError;
 use crate::run::limits::Stop;
 use crate::run::news::Detail;
 use crate::run::solution;
+use crate::setup::Model;
 use signorini_io::checkpoint::{Archive, Checkpoint, Stamp};
 use signorini_io::writers::frd::Mark;
 use signorini_io::writers::json::{Event, StepSummary};
 use signorini_mechanics::solve::Stepper;
-use signorini_mechanics::system::System;
 use std::path::Path;
 use std::time::Instant;
 
@@ -57,13 +58,13 @@ impl Recorder<'_> {
     pub fn save(
         &mut self,
         stepper: &Stepper,
-        system: &System,
+        model: &Model,
     ) -> Option<signorini_mechanics::system::Archive> {
         let mut solution = signorini_mechanics::system::Archive::default();
-        stepper.save(system, &mut solution);
+        stepper.save(&model.system, &mut solution);
         // counted first: a resumed run reports the checkpoint again
         let clock = Instant::now();
-        match self.write_checkpoint(&solution, stepper.state().time) {
+        match self.write_checkpoint(&solution, model, stepper.state().time) {
             Ok((stamp, file)) => {
                 self.saved_at = (self.counts.increments, Instant::now());
                 self.write_seconds += clock.elapsed().as_secs_f64();
@@ -80,6 +81,7 @@ impl Recorder<'_> {
     fn write_checkpoint(
         &mut self,
         solution: &signorini_mechanics::system::Archive,
+        model: &Model,
         time: f64,
     ) -> Result<(Stamp, String), OutputError> {
         let files = &mut self.files;
@@ -95,6 +97,7 @@ impl Recorder<'_> {
         }
         let mut archive = Archive::new();
         solution::put(solution, &mut archive)?;
+        births::put(model, &mut archive)?;
         let rows = [
             files.history.nrow(),
             files.convergence.nrow(),

@@ -305,7 +305,7 @@ impl Recorder<'_> {
 
 fn state(contact: &ContactFrame) -> (String, ContactState) {
     let state = ContactState {
-        force: contact.secondary.force.to_array(),
+        force: contact.reported().force.to_array(),
         area: contact.area_stick + contact.area_slip,
         pressure_max: contact.pressure_max,
         closed: contact.nclosed() as u64,
@@ -322,9 +322,10 @@ fn summary(contact: &ContactFrame, before: Option<&ContactSummary>) -> ContactSu
     let forces = over((one.force + other.force).norm(), force);
     let arm = force * contact.facet_size;
     let moments = over((one.moment + other.moment).norm(), arm);
+    let reported = contact.reported();
     ContactSummary {
-        force: one.force.to_array(),
-        moment: one.moment.to_array(),
+        force: reported.force.to_array(),
+        moment: reported.moment.to_array(),
         pressure_max: contact.pressure_max,
         gap_min: contact.gap_min,
         area_open: contact.area_open,
