@@ -45,13 +45,14 @@ const TIE: f64 = 0.025;
 
 /// What happens between two surfaces.
 #[derive(Clone, Debug, Default)]
-struct Interaction {
-    law: Law,
+pub(super) struct Interaction {
+    pub law: Law,
     friction: Option<[f64; 2]>,
 }
 
+/// What pressures and overclosures are.
 #[derive(Clone, Debug, Default)]
-enum Law {
+pub(super) enum Law {
     #[default]
     Hard,
     /// K, the tension at a distance, and the gap beyond which nothing acts; zero where they are not given.
@@ -96,15 +97,12 @@ impl Translation<'_> {
         for card in self.cards("CONTACTPAIR") {
             self.pairs(card, &interactions);
         }
+        self.general(&interactions);
         self.clearances();
         // the sides of a sector are no contact
         let ties = self.cards("TIE").filter(|card| !card.has("CYCLICSYMMETRY"));
-        for card in ties {
-            self.tie(card);
-        }
-        for card in self.cards("GAP") {
-            self.gaps(card);
-        }
+        ties.for_each(|card| self.tie(card));
+        self.cards("GAP").for_each(|card| self.gaps(card));
     }
 
     fn interactions(&mut self) -> BTreeMap<String, Interaction> {
@@ -336,7 +334,7 @@ impl Translation<'_> {
     }
 
     /// The law of a contact.
-    fn obey(&self, contact: &mut Contact, to: &Interaction, method: Method) {
+    pub(super) fn obey(&self, contact: &mut Contact, to: &Interaction, method: Method) {
         let exact = self.compat == Compat::Ccx;
         let place = contact.place.clone();
         let by = |stiffness| Enforcement::Penalty(Some(Spanned::new(stiffness, place.clone())));

@@ -68,12 +68,35 @@ pub const KEYWORDS: &[Keyword] = &[
         "forces at nodes, moments at rigid bodies; AMPLITUDE, TIME DELAY, OP",
     ),
     ignored("CONDUCTIVITY", "only of heat: temperatures are given"),
+    read(
+        "CONTACT",
+        "with CONTACT INCLUSIONS: everything that faces one another may touch",
+    ),
     ignored("CONTACT CONTROLS", "contact needs no controls here"),
+    ignored(
+        "CONTACT CONTROLS ASSIGNMENT",
+        "contact needs no controls here",
+    ),
     ignored("CONTACT DAMPING", "only of motion: steps are static"),
+    read("CONTACT EXCLUSIONS", "surfaces that do not touch"),
     ignored("CONTACT FILE", "all fields of contact are written anyway"),
+    read("CONTACT FORMULATION", "TYPE=MASTER SLAVE ROLES"),
+    read("CONTACT INCLUSIONS", "ALL EXTERIOR, or surfaces"),
     ignored("CONTACT OUTPUT", "all fields of contact are written anyway"),
+    refused(
+        "CONTACT INITIALIZATION ASSIGNMENT",
+        "clearances of pairs are said by CONTACT PAIR and CLEARANCE",
+    ),
+    refused(
+        "CONTACT INITIALIZATION DATA",
+        "clearances of pairs are said by CONTACT PAIR and CLEARANCE",
+    ),
     read("CONTACT PAIR", "TYPE, SMALL SLIDING, ADJUST by a tolerance"),
     read("CONTACT PRINT", "CDIS, CSTR, CELS, CNUM, CF, CFN, CFS"),
+    read(
+        "CONTACT PROPERTY ASSIGNMENT",
+        "interactions of all, or of two surfaces",
+    ),
     ignored("CONTACT STABILIZATION", "contact needs no controls here"),
     ignored(
         "CONTROLS",
@@ -230,6 +253,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "HARD, LINEAR, EXPONENTIAL, TABULAR, TIED",
     ),
     read("SURFACE INTERACTION", ""),
+    refused(
+        "SURFACE PROPERTY ASSIGNMENT",
+        "faces are where their nodes are, without a thickness of their own",
+    ),
     read("TEMPERATURE", "of node sets"),
     read("TIE", "POSITION TOLERANCE, ADJUST; CYCLIC SYMMETRY"),
     ignored("TIME POINTS", "results are written after every increment"),

@@ -1,5 +1,6 @@
 mod constraints;
 mod contact;
+mod general;
 mod materials;
 mod sections;
 mod silent;
