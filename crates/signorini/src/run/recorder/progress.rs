@@ -201,10 +201,15 @@ impl Recorder<'_> {
         self.closure.look(frame);
         self.idle.look(frame);
         let before = std::mem::take(&mut self.contacts);
-        let contacts = frame.contacts.iter();
-        self.contacts = contacts
-            .map(|c| (c.name.clone(), summary(c, before.get(&c.name))))
-            .collect();
+        for contact in &frame.contacts {
+            // two bodies that meet at several places have one name
+            let name = contact.name.split('#').next().unwrap_or_default();
+            let now = summary(contact, before.get(name));
+            match self.contacts.get_mut(name) {
+                Some(sum) => add(sum, &now),
+                None => drop(self.contacts.insert(name.to_owned(), now)),
+            }
+        }
         let drifts = frame.contacts.iter();
         let drifts =
             drifts.filter_map(|c| c.drift.map(|(ratio, node)| (c.name.clone(), ratio, node)));
@@ -311,6 +316,20 @@ fn state(contact: &ContactFrame) -> (String, ContactState) {
         closed: contact.nclosed() as u64,
     };
     (contact.name.clone(), state)
+}
+
+/// Adds a contact to another one of the same two bodies.
+fn add(sum: &mut ContactSummary, one: &ContactSummary) {
+    for (sum, one) in [(&mut sum.force, one.force), (&mut sum.moment, one.moment)] {
+        sum.iter_mut().zip(one).for_each(|(sum, one)| *sum += one);
+    }
+    sum.pressure_max = sum.pressure_max.max(one.pressure_max);
+    sum.gap_min = sum.gap_min.min(one.gap_min);
+    sum.area_open += one.area_open;
+    sum.area_stick += one.area_stick;
+    sum.area_slip += one.area_slip;
+    sum.imbalance_force = sum.imbalance_force.max(one.imbalance_force);
+    sum.imbalance_moment = sum.imbalance_moment.max(one.imbalance_moment);
 }
 
 /// A contact with the worst balance so far.
