@@ -71,7 +71,7 @@ mod torus;
 mod triangulated;
 
 pub use analytical::{Analytical, Patch, Shape, Side};
-pub use behind::bodies;
+pub use behind::{Bodies, bodies};
 pub use bent::Bent;
 pub use cone::Cone;
 pub use contact_surface::ContactSurface;

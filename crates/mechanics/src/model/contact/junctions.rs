@@ -9,9 +9,8 @@
 //! Source: Wohlmuth, *SIAM J. Numer. Anal.* 38 (2000) 989–1012 (multipliers at cross points).
 
 use super::Sides;
-use super::joined::bodies;
-use signorini_geometry::mesh::{Mesh, NodeId};
-use signorini_geometry::surface::{ContactSurface, Facets, Placement};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::{Bodies, ContactSurface, Facets, Placement};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
 
@@ -46,7 +45,9 @@ pub(in crate::model) fn yields(
     if holding.len() < 3 {
         return Vec::new();
     }
-    let of = |facets: &Facets| bodies(mesh, facets).into_iter().collect::<BTreeSet<u32>>();
+    let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
+    let bodies = Bodies::new(mesh, &cells);
+    let of = |facets: &Facets| bodies.behind(facets).into_iter().collect::<BTreeSet<u32>>();
     let at = Placement { x, poses: &[] };
     let size = |facets: &Facets| {
         let sizes = (0..facets.nfacet() as u32).map(|facet| facets.size(&at, facet));
