@@ -135,28 +135,20 @@ impl Driver {
             }
             observe(event)
         };
-        let outcome = loop {
-            let Model {
-                system,
-                steps,
-                general,
-                mesh,
-                ..
-            } = &mut self.model;
-            let (Some(watch), Some(general)) = (&mut self.watch, general) else {
-                break self.stepper.run_until(system, steps, until, &mut observer);
-            };
-            let mut watched = watch.over(general, &mesh.points, &mut observer);
-            let outcome = self.stepper.run_until(system, steps, until, &mut watched);
-            let (births, is_stopped) = (std::mem::take(&mut watched.births), watched.is_stopped);
-            if !matches!(outcome, Ok(Outcome::Stopped)) {
-                break outcome;
+        let outcome = match &mut self.watch {
+            None => {
+                let Model { system, steps, .. } = &mut self.model;
+                self.stepper.run_until(system, steps, until, &mut observer)
             }
-            watch.go_on(&mut self.model, &mut self.stepper, &births)?;
-            let left = until - self.stepper.state().time;
-            if is_stopped || left <= 1e-12 * until {
-                break outcome;
-            }
+            Some(watch) => loop {
+                let (model, stepper) = (&mut self.model, &mut self.stepper);
+                let done = watch.increment(model, stepper, Some(until), &mut observer)?;
+                let left = until - self.stepper.state().time;
+                let is_over = done.is_stopped || left <= 1e-12 * until;
+                if is_over || !matches!(done.outcome, Ok(Outcome::Stopped)) {
+                    break done.outcome;
+                }
+            },
         };
         if let Some(frame) = last {
             self.frame = frame;

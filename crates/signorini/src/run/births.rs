@@ -18,7 +18,7 @@ use signorini_geometry::tensor::Vec3;
 use signorini_io::checkpoint::{self, ArchiveError};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::inherit;
-use signorini_mechanics::solve::{Event, Flow, Observer, Stepper};
+use signorini_mechanics::solve::{Event, Flow, Observer, Outcome, RunError, Stepper};
 use signorini_mechanics::system::{Archive, ContactNumbering, Frame, System};
 
 /// The name of the pairs in a checkpoint.
@@ -32,16 +32,26 @@ pub(crate) struct Watch {
     solution: Archive,
 }
 
+/// An increment of a run that is watched.
+pub(crate) struct Increment {
+    /// How the stepper ended.
+    pub outcome: Result<Outcome, RunError>,
+    /// Whether who hears it wants to stop.
+    pub is_stopped: bool,
+    /// What has begun, in words.
+    pub begun: Option<Diagnostic>,
+}
+
 /// Watches the increments of a run for contact that begins, and stops it after each.
-pub(crate) struct Watched<'a> {
-    general: &'a mut General,
+struct Watched<'a> {
+    general: &'a mut Option<General>,
     reference: &'a [Vec3],
     from: &'a mut Vec<Vec3>,
     heard_by: &'a mut dyn Observer,
     /// What the last increment found.
-    pub births: Births,
+    births: Births,
     /// Whether who hears it wants it to stop.
-    pub is_stopped: bool,
+    is_stopped: bool,
 }
 
 impl Watch {
@@ -58,28 +68,53 @@ impl Watch {
         })
     }
 
-    /// Someone who watches the increments of a model, and hands everything on.
-    pub fn over<'a>(
-        &'a mut self,
-        general: &'a mut General,
-        reference: &'a [Vec3],
-        heard_by: &'a mut dyn Observer,
-    ) -> Watched<'a> {
-        Watched {
+    /// One increment, up to a time where there is one, and contact that begins after it.
+    ///
+    /// # Errors
+    /// A model that cannot be built with that contact.
+    pub fn increment(
+        &mut self,
+        model: &mut Model,
+        stepper: &mut Stepper,
+        until: Option<f64>,
+        heard_by: &mut dyn Observer,
+    ) -> Result<Increment, Diagnostics> {
+        let Model {
+            system,
+            steps,
             general,
-            reference,
+            mesh,
+            ..
+        } = model;
+        let mut watched = Watched {
+            general,
+            reference: &mesh.points,
             from: &mut self.places,
             heard_by,
             births: Births::default(),
             is_stopped: false,
-        }
+        };
+        let outcome = match until {
+            None => stepper.run(system, steps, &mut watched),
+            Some(time) => stepper.run_until(system, steps, time, &mut watched),
+        };
+        let (births, is_stopped) = (watched.births, watched.is_stopped);
+        let begun = match outcome {
+            Ok(Outcome::Stopped) => self.go_on(model, stepper, &births)?,
+            _ => None,
+        };
+        Ok(Increment {
+            outcome,
+            is_stopped,
+            begun,
+        })
     }
 
     /// Goes on after an increment: with more contacts where some begin. What begins comes back in words.
     ///
     /// # Errors
     /// A model that cannot be built with them.
-    pub fn go_on(
+    fn go_on(
         &mut self,
         model: &mut Model,
         stepper: &mut Stepper,
@@ -110,7 +145,8 @@ impl Observer for Watched<'_> {
             return flow;
         };
         let places = places(self.reference, frame);
-        self.births = self.general.look(self.from, &places);
+        let general = self.general.as_mut();
+        self.births = general.map_or_else(Births::default, |one| one.look(self.from, &places));
         if !self.births.is_inside {
             *self.from = places;
             self.is_stopped |= self.heard_by.notice(event) == Flow::Stop;

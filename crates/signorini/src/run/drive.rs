@@ -298,28 +298,12 @@ impl Run<'_, '_> {
         watch: &mut Watch,
         stepper: &mut Stepper,
     ) -> Result<Result<Outcome, RunError>, Diagnostics> {
-        let Model {
-            system,
-            steps,
-            general: Some(general),
-            mesh,
-            ..
-        } = &mut *self.model
-        else {
-            let Model { system, steps, .. } = &mut *self.model;
-            return Ok(stepper.run(system, steps, &mut self.recorder));
-        };
-        let mut watched = watch.over(general, &mesh.points, &mut self.recorder);
-        let outcome = stepper.run(system, steps, &mut watched);
-        let births = std::mem::take(&mut watched.births);
-        if matches!(outcome, Ok(Outcome::Stopped))
-            && let Some(begun) = watch.go_on(self.model, stepper, &births)?
-        {
+        let done = watch.increment(self.model, stepper, None, &mut self.recorder)?;
+        if let Some(begun) = &done.begun {
             self.recorder.setting.layout = self.model.system.layout;
-            self.recorder
-                .tell(&event_of(&begun), Detail::Finding(&begun));
+            self.recorder.tell(&event_of(begun), Detail::Finding(begun));
         }
-        Ok(outcome)
+        Ok(done.outcome)
     }
 
     fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {
