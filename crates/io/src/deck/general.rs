@@ -17,7 +17,7 @@ use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Cards that say more about contact of everything, each for what it is about.
+/// Cards that mean nothing without *CONTACT.
 const MORE: [&str; 4] = [
     "CONTACTEXCLUSIONS",
     "CONTACTPROPERTYASSIGNMENT",

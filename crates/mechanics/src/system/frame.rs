@@ -131,8 +131,8 @@ pub struct ContactFrame {
     pub secondary: Resultant,
     /// What the secondary side exerts on the primary; moment about the origin.
     pub primary: Resultant,
-    /// Whether histories have the force on the primary side.
-    pub is_reversed: bool,
+    /// How histories report it, where that is not by its own name; `None`: by that, with the force on the secondary side.
+    pub reported_as: Option<ReportedAs>,
     /// The part of the force on the secondary side that pressures exert.
     pub force_normal: Vec3,
     /// The moment of that part about the origin.
@@ -183,6 +183,15 @@ impl IdleRows {
     }
 }
 
+/// How histories report a contact: several of one name together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReportedAs {
+    /// The name.
+    pub name: String,
+    /// Whether with the force on the primary side.
+    pub on_primary: bool,
+}
+
 impl ContactFrame {
     /// Adds the second pass of this contact, whose sides are swapped; its pressures and tractions at the nodes are in
     /// already.
@@ -208,14 +217,22 @@ impl ContactFrame {
         }
     }
 
-    /// What acts on the side whose force histories have: the secondary one, or that of the body that the name of the contact
-    /// begins with.
+    /// What acts on the side whose force histories have: the secondary one, unless they have that on the primary.
     #[must_use]
     pub fn reported(&self) -> Resultant {
-        match self.is_reversed {
-            true => self.primary,
-            false => self.secondary,
+        match &self.reported_as {
+            Some(ReportedAs {
+                on_primary: true, ..
+            }) => self.primary,
+            _ => self.secondary,
         }
+    }
+
+    /// The name by which histories report it.
+    #[must_use]
+    pub fn reported_name(&self) -> &str {
+        let other = self.reported_as.as_ref();
+        other.map_or(&self.name, |reported| &reported.name)
     }
 
     /// The number of closed nodes.

@@ -78,8 +78,8 @@ pub use capabilities::{
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Footprint, Frame, FreeMotion, IdleRows, NodalValues, Resultant,
-    RigidFrame, SpinFrame, Status,
+    ContactFrame, ContactSample, Footprint, Frame, FreeMotion, IdleRows, NodalValues, ReportedAs,
+    Resultant, RigidFrame, SpinFrame, Status,
 };
 pub use idealisation::{Idealisation, profile_at};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};

@@ -84,7 +84,7 @@ impl History {
     fn values(&self, frame: &Frame) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.columns.len());
         for name in &self.contacts {
-            let of_name = frame.contacts.iter().filter(|c| is_of(&c.name, name));
+            let of_name = frame.contacts.iter().filter(|c| c.reported_name() == name);
             values.extend(of_name.map(of_contact).reduce(together).unwrap_or_default());
         }
         for &body in &self.references {
@@ -105,7 +105,7 @@ impl History {
 /// The contacts that have columns: those of the model, and where pairs are found those that the case asks for, which may
 /// begin later. Pairs of one name have one set of columns.
 fn contacts(model: &Model) -> Vec<String> {
-    let of_model = model.contacts.iter().map(|c| c.name.clone());
+    let of_model = model.contacts.iter().map(|c| c.reported_name.clone());
     let Some(general) = &model.general else {
         return of_model.collect();
     };
@@ -121,18 +121,11 @@ fn contacts(model: &Model) -> Vec<String> {
         .filter(|name| general.may_be_called(name));
     let mut all: Vec<String> = Vec::new();
     for name in of_model.chain(later) {
-        let name = name.split_once('#').map_or(&*name, |(name, _)| name);
-        if !all.iter().any(|known| known == name) {
-            all.push(name.to_owned());
+        if !all.contains(&name) {
+            all.push(name);
         }
     }
     all
-}
-
-/// Whether a contact is one of those that a name stands for: the name, or the name with a number.
-fn is_of(contact: &str, name: &str) -> bool {
-    let rest = contact.strip_prefix(name);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('#'))
 }
 
 /// What two contacts of one name are together.

@@ -23,6 +23,7 @@ use signorini_mechanics::model::{
     self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FrictionPart, Method,
     PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
 };
+use signorini_mechanics::system::ReportedAs;
 use signorini_vocabulary::Entry;
 use std::sync::Arc;
 
@@ -109,7 +110,10 @@ fn contact(
         start: start(&part.start, names, found),
         reach: part.reach,
         active: part.active,
-        is_reversed: part.is_reversed,
+        reported_as: part.found.as_ref().map(|found| ReportedAs {
+            name: found.pair.clone(),
+            on_primary: found.is_reversed,
+        }),
         ..ContactPart::new(part.name.value.clone(), secondary, primary)
     })
 }

@@ -32,6 +32,8 @@ pub struct ContactInfo {
     pub facet_size: f64,
     /// Gaps and overlaps at the start.
     pub start: StartSummary,
+    /// The name that histories have it by: its own, or where nobody names pairs that of all contacts of two bodies.
+    pub reported_name: String,
     /// Whether the program found it, where nobody names pairs.
     pub is_found: bool,
 }
@@ -59,6 +61,7 @@ pub(super) fn contacts(case: &Case, summaries: &[ContactSummary]) -> Vec<Contact
                 && one.enforcement == Enforcement::Auto
         });
         let first = own.clone().next();
+        let found = first.and_then(|one| one.found.as_ref());
         let is_given =
             first.is_some_and(|one| matches!(one.enforcement, Enforcement::Penalty(Some(_))));
         ContactInfo {
@@ -74,7 +77,8 @@ pub(super) fn contacts(case: &Case, summaries: &[ContactSummary]) -> Vec<Contact
             nfacet: summary.nfacet,
             facet_size: summary.facet_size,
             start: summary.start,
-            is_found: first.is_some_and(|one| one.is_found),
+            reported_name: found.map_or(&summary.name, |found| &found.pair).clone(),
+            is_found: found.is_some(),
         }
     };
     summaries.iter().map(one).collect()

@@ -314,6 +314,24 @@ fn what_a_contact_names_is_not_found_again() {
     assert_eq!(names, ["named"]);
 }
 
+/// The sign before the number of a pair that was found may be in a name that somebody chose.
+#[test]
+fn names_that_are_chosen_stay_whole() {
+    let contact = named("upper-y", "lower+y", "").replace("\"named\"", "\"bolt#2\"");
+    let (finished, _, fs) = solve(&pressed(2, 0.0, 2, &contact), |_| {});
+    let names: Vec<&String> = finished.summary.contacts.keys().collect();
+    assert_eq!(names, ["bolt#2"]);
+    let history = fs.read(Path::new("case.out/history.csv")).unwrap();
+    let text = String::from_utf8(history).unwrap();
+    let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let column = lines[0]
+        .iter()
+        .position(|one| *one == "bolt#2.force_y")
+        .unwrap();
+    let force: f64 = lines.last().unwrap()[column].parse().unwrap();
+    assert!((force - finished.summary.contacts["bolt#2"].force[1]).abs() < 1e-9 && force > 1.0);
+}
+
 /// A block on a rigid plane, whose bottom is named or not.
 #[test]
 fn rigid_surfaces_are_met_by_all_bodies() {

@@ -53,8 +53,7 @@ impl Builder<'_> {
             },
             reach: fields.number_if("reach").map(|reach| reach.value),
             active: fields.flag("active"),
-            is_reversed: false,
-            is_found: false,
+            found: None,
             place,
         };
         self.sides(&contact);

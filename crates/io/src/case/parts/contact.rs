@@ -51,10 +51,8 @@ pub struct Contact {
     pub reach: Option<f64>,
     /// Whether it acts from the first step on.
     pub active: bool,
-    /// Whether its forces are reported as those on the primary side.
-    pub is_reversed: bool,
-    /// Whether the program found it, where nobody names pairs: then it is written nowhere.
-    pub is_found: bool,
+    /// How it was found, where nobody names pairs: then it is written nowhere.
+    pub found: Option<Found>,
     /// Where it was written.
     pub place: Place,
 }
@@ -83,8 +81,7 @@ impl Contact {
             pairs: Pairs::Nearest,
             reach: None,
             active: true,
-            is_reversed: false,
-            is_found: false,
+            found: None,
             place,
         }
     }
@@ -379,6 +376,15 @@ pub struct ContactChange {
     pub friction: Option<Option<Friction>>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// What a contact that the program found is to results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// The name that it shares with others between the same two bodies.
+    pub pair: String,
+    /// Whether the primary side is of the body that this name begins with: the one whose force is reported.
+    pub is_reversed: bool,
 }
 
 /// Contact of everything with everything: pairs of surfaces are found.

@@ -35,7 +35,10 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         ("method", method(*contact.method).into()),
         ("passes", passes.into()),
         ("area", area.into()),
-        ("enforcement", enforcement(contact)),
+        (
+            "enforcement",
+            enforcement(&contact.enforcement, contact.per),
+        ),
         ("friction", friction(contact.friction.as_ref())),
         ("friction_history", history.into()),
         ("sliding", sliding.into()),
@@ -96,23 +99,13 @@ pub(super) fn general(general: &General) -> Entries {
 }
 
 fn general_pair(pair: &GeneralPair) -> Entries {
-    let like = |pair: &GeneralPair| {
-        let (enforcement, per) = pair
-            .enforcement
-            .clone()
-            .unwrap_or((Enforcement::Auto, None));
-        let [one, other] = pair.between.clone();
-        let mut like = Contact::new(Name::default(), one, other, pair.place.clone());
-        (like.enforcement, like.per) = (enforcement, per);
-        like
-    };
     let between = list(pair.between.iter().map(|name| &name.value));
     let mut entries = vec![("between", between)];
     if let Some(given) = &pair.friction {
         entries.push(("friction", friction(given.as_ref())));
     }
-    if pair.enforcement.is_some() {
-        entries.push(("enforcement", enforcement(&like(pair))));
+    if let Some((law, per)) = &pair.enforcement {
+        entries.push(("enforcement", enforcement(law, *per)));
     }
     if let Some(given) = &pair.method {
         entries.push(("method", method(**given).into()));
@@ -164,9 +157,9 @@ fn pairs(pairs: Pairs) -> Value {
     .into()
 }
 
-fn enforcement(contact: &Contact) -> Value {
+fn enforcement(law: &Enforcement, per: Option<Per>) -> Value {
     let number = |penalty: &Option<Spanned<f64>>| auto(penalty.as_ref().map(|one| one.value));
-    let mut entries: Entries = match &contact.enforcement {
+    let mut entries: Entries = match law {
         Enforcement::Auto => return "auto".into(),
         Enforcement::Penalty(penalty) => vec![("penalty", number(penalty))],
         Enforcement::Table(rows) => vec![("penalty", list(rows))],
@@ -184,7 +177,7 @@ fn enforcement(contact: &Contact) -> Value {
             ]
         }
     };
-    let per = contact.per.map(|per| match per {
+    let per = per.map(|per| match per {
         Per::Node => "node",
         Per::Area => "area",
     });

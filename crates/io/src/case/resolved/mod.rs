@@ -30,7 +30,7 @@ pub fn resolved(case: &Case, vocabulary: &Vocabulary) -> String {
 
 /// Contacts as they are written: those that were found are found again.
 fn contacts(case: &Case) -> Value {
-    let named = case.contacts.iter().filter(|one| !one.is_found);
+    let named = case.contacts.iter().filter(|one| one.found.is_none());
     let named = named.map(contact);
     let all = named.chain(case.general.iter().map(general));
     Value::Tables(all.map(|entries| (None, entries)).collect())

@@ -3,6 +3,7 @@
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{ContactLaw, Penalty, Scale};
+use crate::system::ReportedAs;
 use signorini_geometry::surface::SurfaceError;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -114,8 +115,8 @@ pub struct InterfaceParts {
     pub smooths: bool,
     /// Whether it is the second pass of a contact, whose results belong to the first with the sides swapped.
     pub swapped: bool,
-    /// Whether its forces are reported as those on the primary side.
-    pub is_reversed: bool,
+    /// How histories report it, where that is not by its own name.
+    pub reported_as: Option<ReportedAs>,
     /// Which of the interfaces of a contact it is, whose facets take part only in some steps.
     pub variant: usize,
 }
@@ -154,7 +155,7 @@ impl InterfaceParts {
             traction_tolerance: 1e-7,
             smooths: false,
             swapped: false,
-            is_reversed: false,
+            reported_as: None,
             variant: 0,
         }
     }

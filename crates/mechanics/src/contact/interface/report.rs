@@ -545,7 +545,7 @@ impl Interface {
             faces: inside.map(|_| Vec::new()),
             area: vec![0.0; n],
             facet_size: self.parts.scale.length,
-            is_reversed: self.parts.is_reversed,
+            reported_as: self.parts.reported_as.clone(),
             drift: self.drift,
             ..ContactFrame::default()
         }

@@ -231,7 +231,7 @@ impl Context<'_> {
             traction_tolerance: steps.traction_tol,
             smooths: part.smooths,
             swapped: sides.swapped,
-            is_reversed: part.is_reversed,
+            reported_as: part.reported_as.clone(),
             variant: sides.variant,
         };
         Ok((parts, summary))

@@ -4,6 +4,7 @@ use crate::contact::Measure;
 use crate::contact::discretization::{SlidingRange, mortar};
 use crate::contact::friction::{Coulomb, FrictionLaw};
 use crate::contact::law::ContactLaw;
+use crate::system::ReportedAs;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
@@ -273,8 +274,8 @@ pub struct ContactPart {
     pub smooths: bool,
     /// Whether it acts in the first step.
     pub active: bool,
-    /// Whether its forces are reported as those on the primary side: that of the body that its name names first.
-    pub is_reversed: bool,
+    /// How histories report it, where that is not by its own name.
+    pub reported_as: Option<ReportedAs>,
 }
 
 impl FrictionPart {
@@ -331,7 +332,7 @@ impl ContactPart {
             reach: None,
             smooths: false,
             active: true,
-            is_reversed: false,
+            reported_as: None,
         }
     }
 }

@@ -203,7 +203,7 @@ impl Recorder<'_> {
         let before = std::mem::take(&mut self.contacts);
         for contact in &frame.contacts {
             // two bodies that meet at several places have one name
-            let name = contact.name.split('#').next().unwrap_or_default();
+            let name = contact.reported_name();
             let now = summary(contact, before.get(name));
             match self.contacts.get_mut(name) {
                 Some(sum) => add(sum, &now),

@@ -6,7 +6,7 @@ use super::source::{Side, Wall, has};
 use crate::setup::names::Names;
 use signorini_geometry::mesh::Face;
 use signorini_geometry::surface::ContactSurface;
-use signorini_io::case::{self, ANY, Case, Contact, Excluded, Method, Name, SELF};
+use signorini_io::case::{self, ANY, Case, Contact, Excluded, Found, Method, Name, SELF};
 use signorini_io::diagnostic::Spanned;
 use std::collections::BTreeMap;
 
@@ -140,11 +140,15 @@ impl General {
             let (name, in_order) = self.name([a, b]);
             let number = count.entry(name.clone()).or_insert(0);
             *number += 1;
-            let name = match *number {
-                1 => name,
+            let own = match *number {
+                1 => name.clone(),
                 number => format!("{name}#{number}"),
             };
-            self.contact(pair, name, in_order)
+            let found = Found {
+                pair: name,
+                is_reversed: !in_order,
+            };
+            self.contact(pair, &own, found)
         };
         let walls = self.walls.iter().map(|wall| self.against(wall));
         walls.chain(self.pairs.iter().map(contact)).collect()
@@ -164,7 +168,6 @@ impl General {
                 contact.method = method.clone();
             }
         }
-        contact.is_found = true;
         contact
     }
 
@@ -185,6 +188,10 @@ impl General {
         let own = format!("{}-{}", wall.body, wall.surface);
         [contact.name, contact.secondary, contact.primary] =
             [&*own, &*side, &*wall.surface].map(named);
+        contact.found = Some(Found {
+            pair: own,
+            is_reversed: false,
+        });
         let facets = self.finder.skin().facets();
         let faces = wall.facets.iter().filter_map(|&facet| facets.face(facet));
         FoundContact {
@@ -193,7 +200,7 @@ impl General {
         }
     }
 
-    fn contact(&self, pair: &Pair, name: String, in_order: bool) -> FoundContact {
+    fn contact(&self, pair: &Pair, name: &str, found: Found) -> FoundContact {
         let facets = self.finder.skin().facets();
         let first = pair
             .0
@@ -216,12 +223,12 @@ impl General {
         let named = |name: &str| Spanned::new(name.to_owned(), contact.place.clone());
         let is_fold = secondary.0 == primary.0;
         let sides = [
-            &*name,
+            name,
             &*secondary.0,
             if is_fold { SELF } else { &*primary.0 },
         ];
         [contact.name, contact.secondary, contact.primary] = sides.map(named);
-        contact.is_reversed = !in_order;
+        contact.found = Some(found);
         FoundContact {
             contact,
             sides: vec![secondary, primary],
