@@ -80,9 +80,10 @@ fn form(card: &Statement) -> Option<Form> {
         | "ENDSTEP"
         | "MATERIAL"
         | "RIGIDBODY" => each(NONE, NONE, "no data lines"),
-        "CONTACT" => each(NONE, NONE, "no data lines"),
+        "CONTACT" | "CONTACTINITIALIZATIONDATA" => each(NONE, NONE, "no data lines"),
         "CONTACTINCLUSIONS" | "CONTACTEXCLUSIONS" => each(ANY, (0, 2), "two surfaces, or one"),
         "CONTACTPROPERTYASSIGNMENT" => each(SOME, (3, 3), "two surfaces, interaction"),
+        "CONTACTINITIALIZATIONASSIGNMENT" => each(SOME, (3, 3), "two surfaces, data"),
         "CONTACTFORMULATION" => each(SOME, (3, 3), "two surfaces, role of the first"),
         "CONTACTPAIR" | "TIE" => each(SOME, (2, 2), "secondary and primary surface"),
         "MODELCHANGE" if card.peek("TYPE").map(compared).as_deref() == Some("CONTACTPAIR") => {

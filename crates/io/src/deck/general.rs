@@ -5,25 +5,39 @@
 //! | \*CONTACT INCLUSIONS, ALL EXTERIOR; lines | everything; surfaces that touch themselves (`a` or `a, a`) or each other (`a, b`) |
 //! | \*CONTACT EXCLUSIONS | pairs that do not touch; they win over inclusions |
 //! | \*CONTACT PROPERTY ASSIGNMENT | interactions, of all (`, , I`) or of pairs; the last wins |
+//! | \*CONTACT INITIALIZATION DATA | what is done at the start: SEARCH ABOVE, INTERFERENCE FIT, INITIAL CLEARANCE |
+//! | \*CONTACT INITIALIZATION ASSIGNMENT | data, of all (`, , D`) or of pairs; the last wins |
 //! | \*CONTACT FORMULATION | which side of a pair is secondary |
 //! | \*CONTACT CONTROLS ASSIGNMENT | nothing |
 //!
-//! Overlaps at the start are removed without strain, as by default in Abaqus.
+//! Overlaps at the start are without strain unless data say otherwise, as by default in Abaqus.
 
 use super::contact::{Interaction, Law};
 use super::translation::Translation;
-use crate::case::{ANY, Contact, Excluded, General, GeneralPair, Interference, Method, Name};
+use crate::case::{
+    ANY, Contact, Excluded, General, GeneralPair, Interference, Method, Name, Start,
+};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Cards that mean nothing without *CONTACT.
-const MORE: [&str; 4] = [
+const MORE: [&str; 6] = [
     "CONTACTEXCLUSIONS",
     "CONTACTPROPERTYASSIGNMENT",
     "CONTACTFORMULATION",
     "CONTACTINCLUSIONS",
+    "CONTACTINITIALIZATIONASSIGNMENT",
+    "CONTACTINITIALIZATIONDATA",
 ];
+
+/// What is done at the start unless data say otherwise.
+fn without_strain() -> Start {
+    Start {
+        interference: Interference::StrainFree,
+        ..Start::default()
+    }
+}
 
 impl Translation<'_> {
     pub(super) fn general(&mut self, interactions: &BTreeMap<String, Interaction>) {
@@ -42,7 +56,7 @@ impl Translation<'_> {
         }
         let nobody = || Spanned::new(String::new(), begin.place.clone());
         let mut common = Contact::new(nobody(), nobody(), nobody(), begin.place.clone());
-        common.start.interference = Interference::StrainFree;
+        common.start = without_strain();
         let (of, mut exclude) = self.included(begin);
         for card in self.cards("CONTACTEXCLUSIONS") {
             for row in card.rows() {
@@ -54,6 +68,12 @@ impl Translation<'_> {
         for card in self.cards("CONTACTPROPERTYASSIGNMENT") {
             for row in card.rows() {
                 self.assigned(card, &row, interactions, (&mut common, &mut pairs));
+            }
+        }
+        let data = self.initializations();
+        for card in self.cards("CONTACTINITIALIZATIONASSIGNMENT") {
+            for row in card.rows() {
+                self.initialized(card, &row, &data, (&mut common, &mut pairs));
             }
         }
         for card in self.cards("CONTACTFORMULATION") {
@@ -145,10 +165,7 @@ impl Translation<'_> {
         interactions: &BTreeMap<String, Interaction>,
         (common, pairs): (&mut Contact, &mut Vec<GeneralPair>),
     ) {
-        let named = row
-            .get(2)
-            .map(|field| compared(field.text))
-            .unwrap_or_default();
+        let named = third(row);
         let Some(interaction) = interactions.get(&named) else {
             let text = format!("there is no surface interaction `{named}`");
             self.error(&codes::UNDEFINED, text, &card.place, "");
@@ -168,18 +185,94 @@ impl Translation<'_> {
         let mut own = common.clone();
         self.obey(&mut own, interaction, Method::GaussPoint);
         own.method = Method::Auto.into();
-        if between.iter().all(|name| name.value == ANY) {
+        if is_of_all(&between, pairs) {
             (common.enforcement, common.per) = (own.enforcement, own.per);
             common.friction = own.friction;
             return;
         }
         pairs.push(GeneralPair {
-            between,
             friction: Some(own.friction),
             enforcement: Some((own.enforcement, own.per)),
-            method: None,
-            secondary: None,
-            place: card.place.clone(),
+            ..GeneralPair::new(between, card.place.clone())
+        });
+    }
+
+    /// What *CONTACT INITIALIZATION DATA say, by name.
+    fn initializations(&mut self) -> BTreeMap<String, Start> {
+        let mut all = BTreeMap::new();
+        for card in self.cards("CONTACTINITIALIZATIONDATA") {
+            let mut start = without_strain();
+            if let Some(gap) = self.length(card, "SEARCHABOVE", "SEARCH ABOVE") {
+                start.close_gaps_below = gap;
+            }
+            if card.has("SEARCHBELOW") {
+                let text = "*CONTACT INITIALIZATION DATA, SEARCH BELOW changes nothing: overlaps of any \
+                            size count";
+                self.note(text, &card.place);
+            }
+            let clearance = self.length(card, "INITIALCLEARANCE", "INITIAL CLEARANCE");
+            start.clearance = clearance;
+            if let Some(text) = card.get("INTERFERENCEFIT") {
+                start.interference = Interference::Step;
+                if !text.is_empty() {
+                    let fit = self.length(card, "INTERFERENCEFIT", "INTERFERENCE FIT");
+                    start.clearance = fit.map(|fit| -fit);
+                }
+                if clearance.is_some() {
+                    let text = "INITIAL CLEARANCE and INTERFERENCE FIT exclude each other";
+                    self.error(&codes::CONTRADICTION, text, &card.place, "delete one");
+                }
+            }
+            let stays = card.get("ADJUST").map(compared).as_deref() == Some("NO");
+            if stays && start.close_gaps_below > 0.0 {
+                let text =
+                    "*CONTACT INITIALIZATION DATA, ADJUST=NO with SEARCH ABOVE is not supported";
+                self.error(
+                    &codes::NOT_BUILT,
+                    text,
+                    &card.place,
+                    "gaps are closed by moving nodes",
+                );
+            }
+            if let Some(name) = self.need(card, "NAME") {
+                all.insert(compared(name), start);
+            }
+        }
+        all
+    }
+
+    /// A parameter that is a length.
+    fn length(&mut self, card: &Statement, parameter: &str, shown: &str) -> Option<f64> {
+        let value = self.parameter(card, parameter, shown)?;
+        if value < 0.0 {
+            let text = format!("{shown} is negative");
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "write a length");
+        }
+        Some(value)
+    }
+
+    /// A line of *CONTACT INITIALIZATION ASSIGNMENT.
+    fn initialized(
+        &mut self,
+        card: &Statement,
+        row: &[Field<'_>],
+        data: &BTreeMap<String, Start>,
+        (common, pairs): (&mut Contact, &mut Vec<GeneralPair>),
+    ) {
+        let named = third(row);
+        let Some(start) = data.get(&named) else {
+            let text = format!("there are no *CONTACT INITIALIZATION DATA `{named}`");
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+            return;
+        };
+        let between = self.two(card, row);
+        if is_of_all(&between, pairs) {
+            common.start = start.clone();
+            return;
+        }
+        pairs.push(GeneralPair {
+            start: Some(start.clone()),
+            ..GeneralPair::new(between, card.place.clone())
         });
     }
 
@@ -192,10 +285,7 @@ impl Translation<'_> {
             return;
         }
         for row in card.rows() {
-            let role = row
-                .get(2)
-                .map(|field| compared(field.text))
-                .unwrap_or_default();
+            let role = third(&row);
             let between = self.two(card, &row);
             let [one, other] = &between;
             let secondary = match role.as_str() {
@@ -213,13 +303,20 @@ impl Translation<'_> {
                 }
             };
             pairs.push(GeneralPair {
-                between,
-                friction: None,
-                enforcement: None,
-                method: None,
                 secondary: Some(secondary),
-                place: card.place.clone(),
+                ..GeneralPair::new(between, card.place.clone())
             });
         }
     }
+}
+
+/// What a line says of its two surfaces.
+fn third(row: &[Field<'_>]) -> String {
+    let said = row.get(2).map(|field| compared(field.text));
+    said.unwrap_or_default()
+}
+
+/// Whether a line is about everything, with nothing of pairs before it that it would have to win over.
+fn is_of_all(between: &[Name; 2], pairs: &[GeneralPair]) -> bool {
+    pairs.is_empty() && between.iter().all(|name| name.value == ANY)
 }

@@ -83,13 +83,13 @@ pub const KEYWORDS: &[Keyword] = &[
     read("CONTACT FORMULATION", "TYPE=MASTER SLAVE ROLES"),
     read("CONTACT INCLUSIONS", "ALL EXTERIOR, or surfaces"),
     ignored("CONTACT OUTPUT", "all fields of contact are written anyway"),
-    refused(
+    read(
         "CONTACT INITIALIZATION ASSIGNMENT",
-        "clearances of pairs are said by CONTACT PAIR and CLEARANCE",
+        "data of all, or of two surfaces",
     ),
-    refused(
+    read(
         "CONTACT INITIALIZATION DATA",
-        "clearances of pairs are said by CONTACT PAIR and CLEARANCE",
+        "NAME; SEARCH ABOVE, INTERFERENCE FIT, INITIAL CLEARANCE",
     ),
     read("CONTACT PAIR", "TYPE, SMALL SLIDING, ADJUST by a tolerance"),
     read("CONTACT PRINT", "CDIS, CSTR, CELS, CNUM, CF, CFN, CFS"),

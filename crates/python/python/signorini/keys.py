@@ -340,6 +340,39 @@ class ContactFriction(Table):
     tresca: Key[float | None, float] = Key("Shear traction wherever it touches", "number > 0.0")
 
 
+class ContactPairStart(Table):
+    """What is done about gaps and overlaps at the start.
+
+    TOML: `contact.pair.start`.
+    """
+
+    _toml = "contact.pair.start"
+    clearance: Key[Literal["measured"] | float, Literal["measured"] | float] = Key(
+        "Gaps are taken to be this, whatever the mesh says; negative: overlaps",
+        "`\"measured\"` or number",
+        default="measured",
+    )
+    close_gaps_below: Key[float, float] = Key(
+        "Gaps and overlaps up to this are removed by moving nodes, without strain",
+        "number ≥ 0.0",
+        default=0.0,
+    )
+    close_gaps_of: Key[str | None, str] = Key(
+        "Gaps and overlaps of the nodes of this set are removed likewise, whatever their size",
+        "text",
+    )
+    facets: Key[Literal["bent", "straight"], Literal["bent", "straight"]] = Key(
+        "Gaps of surfaces that conform are measured between the curved surfaces that facets of linear elements were cut from, or between the facets",
+        "`\"bent\"`, `\"straight\"`",
+        default="bent",
+    )
+    interference: Key[Literal["step", "increment", "increments", "now", "strain-free"], Literal["step", "increment", "increments", "now", "strain-free"]] = Key(
+        "Overlaps are resolved over the first step; their part of it in its first increment and the rest at once; over what is left of it, measured again in every increment; at once; or stay without pressure",
+        "`\"step\"`, `\"increment\"`, `\"increments\"`, `\"now\"`, `\"strain-free\"`",
+        default="step",
+    )
+
+
 class ContactPair(Table):
     """With `all`: what is different where two of them meet; of several that name a pair the last holds.
 
@@ -366,6 +399,11 @@ class ContactPair(Table):
         "`\"auto\"`, `\"node-to-node\"`, `\"node-to-segment\"`, `\"gauss-point\"`, `\"mortar\"`",
     )
     secondary: Key[str | None, str] = Key("The one of the two that carries the points", "text")
+    start: One[ContactPairStart] = One(
+        ContactPairStart,
+        "What is done about gaps and overlaps at the start",
+        "a table",
+    )
 
 
 class ContactRule(Table):
@@ -389,39 +427,6 @@ class ContactRule(Table):
         "How many; auto: one more than the degree of the facet",
         "`\"auto\"` or whole number ≥ 1, ≤ 32",
         default="auto",
-    )
-
-
-class ContactStart(Table):
-    """What is done about gaps and overlaps at the start.
-
-    TOML: `contact.start`.
-    """
-
-    _toml = "contact.start"
-    clearance: Key[Literal["measured"] | float, Literal["measured"] | float] = Key(
-        "Gaps are taken to be this, whatever the mesh says; negative: overlaps",
-        "`\"measured\"` or number",
-        default="measured",
-    )
-    close_gaps_below: Key[float, float] = Key(
-        "Gaps and overlaps up to this are removed by moving nodes, without strain",
-        "number ≥ 0.0",
-        default=0.0,
-    )
-    close_gaps_of: Key[str | None, str] = Key(
-        "Gaps and overlaps of the nodes of this set are removed likewise, whatever their size",
-        "text",
-    )
-    facets: Key[Literal["bent", "straight"], Literal["bent", "straight"]] = Key(
-        "Gaps of surfaces that conform are measured between the curved surfaces that facets of linear elements were cut from, or between the facets",
-        "`\"bent\"`, `\"straight\"`",
-        default="bent",
-    )
-    interference: Key[Literal["step", "increment", "increments", "now", "strain-free"], Literal["step", "increment", "increments", "now", "strain-free"]] = Key(
-        "Overlaps are resolved over the first step; their part of it in its first increment and the rest at once; over what is left of it, measured again in every increment; at once; or stay without pressure",
-        "`\"step\"`, `\"increment\"`, `\"increments\"`, `\"now\"`, `\"strain-free\"`",
-        default="step",
     )
 
 
@@ -542,7 +547,11 @@ class Contact(Table):
         "`\"auto\"`, `\"finite\"`, `\"increment\"`, `\"small\"`",
         default="auto",
     )
-    start: One[ContactStart] = One(ContactStart, "What is done about gaps and overlaps at the start", "a table")
+    start: One[ContactPairStart] = One(
+        ContactPairStart,
+        "What is done about gaps and overlaps at the start",
+        "a table",
+    )
     tied: Mixed[ContactTied] = Mixed(
         ContactTied,
         "Whether the sides are joined: false, true or { offset, within }",
@@ -2102,7 +2111,7 @@ if TYPE_CHECKING:
         "rule": ContactRule | Mapping[str, Any],
         "self_": bool,
         "sliding": Literal["auto", "finite", "increment", "small"],
-        "start": ContactStart | Mapping[str, Any],
+        "start": ContactPairStart | Mapping[str, Any],
         "tied": bool | ContactTied | Mapping[str, Any],
     }, total=False)
     OrientationKeys = TypedDict("OrientationKeys", {

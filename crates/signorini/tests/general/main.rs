@@ -11,7 +11,7 @@
 mod scene;
 
 use scene::Scene;
-use signorini::{Driver, Finished, Reading, RunOptions, build, open_text, run, setup::Model};
+use signorini::{Driver, Finished, News, Reading, RunOptions, build, open_text, run, setup::Model};
 use signorini_io::fs::{Fs, MemoryFs};
 use signorini_mechanics::solve::Flow;
 use std::path::Path;
@@ -403,6 +403,63 @@ fn a_run_that_is_resumed_between_births_gives_the_same_bits() {
     }
 }
 
+/// A run that is stopped at any event, also within an increment that is done again with contact that began inside, and goes
+/// on from its checkpoint: the same bits as a whole run.
+#[test]
+fn a_run_that_is_stopped_anywhere_goes_on_with_the_same_bits() {
+    let text = stepwise();
+    let heard = |fs: &Arc<dyn Fs>, is_resumed: bool, stop_at: usize| {
+        let opened = open_text(
+            "case.toml".as_ref(),
+            text.clone().into(),
+            &Reading::default(),
+        );
+        let loaded = opened.and_then(|opened| opened.with_mesh()).unwrap();
+        let mut options = RunOptions::new(loaded.source);
+        (options.fs, options.resume) = (Arc::clone(fs), is_resumed);
+        let mut model = build(loaded.case, loaded.mesh).unwrap();
+        let mut count = 0;
+        let finished = run(&mut model, &options, &mut |_: &News<'_>| {
+            count += 1;
+            if count < stop_at {
+                Flow::Continue
+            } else {
+                Flow::Stop
+            }
+        });
+        (finished, count)
+    };
+    let history = |fs: &Arc<dyn Fs>| fs.read(Path::new("case.out/history.csv")).unwrap();
+    let memory = || -> Arc<dyn Fs> { Arc::new(MemoryFs::default()) };
+    let by_whole = memory();
+    let (whole, count) = heard(&by_whole, false, usize::MAX);
+    assert_eq!(whole.exit_code, 0, "{}", whole.diagnostics.plain());
+    let mut stopped = 0;
+    for stop_at in 1..count {
+        let fs = memory();
+        let (first, _) = heard(&fs, false, stop_at);
+        if first.exit_code != 0 {
+            assert_eq!(first.exit_code, 130, "{}", first.diagnostics.plain());
+            stopped += 1;
+        }
+        let (second, _) = heard(&fs, true, usize::MAX);
+        let said = second.diagnostics.plain();
+        assert_eq!(second.exit_code, 0, "stopped at event {stop_at}: {said}");
+        assert_eq!(
+            history(&fs),
+            history(&by_whole),
+            "stopped at event {stop_at}"
+        );
+        for name in ["lower-middle", "middle-upper"] {
+            assert_eq!(carried(&second, name), carried(&whole, name), "{stop_at}");
+        }
+    }
+    assert!(
+        stopped > count / 2,
+        "{stopped} of {count} runs were stopped"
+    );
+}
+
 #[test]
 fn columns_of_pairs_that_begin_later_are_there_from_the_start() {
     let (_, _, fs) = solve(&stepwise(), |_| {});
@@ -613,5 +670,28 @@ fn decks_with_general_contact_are_those_with_pairs() {
          *CONTACT FORMULATION, TYPE=MASTER SLAVE ROLES\nFOOT, TABLE, SLAVE\n",
     ] {
         close(carried(general), right, 1e-9);
+    }
+    // gaps that the deck says, whatever the mesh does
+    let all = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , I\n";
+    for (gap, data) in [
+        (-0.01, "INTERFERENCE FIT=0.01"),
+        (0.005, "INITIAL CLEARANCE=0.005"),
+    ] {
+        let mut right = carried(&format!(
+            "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nFOOT, TABLE\n\
+             *CLEARANCE, SLAVE=FOOT, MASTER=TABLE, VALUE={gap}\n"
+        ));
+        right[..3].iter_mut().for_each(|force| *force = -*force);
+        assert!(
+            right[2].abs() > 1.1 * pair[2].abs() || gap > 0.0,
+            "{right:?}"
+        );
+        for rows in [", , D", "TABLE, FOOT, D", ", , N\nFOOT, TABLE, D"] {
+            let cards = format!(
+                "{all}*CONTACT INITIALIZATION DATA, NAME=N\n*CONTACT INITIALIZATION DATA, NAME=D, {data}\n\
+                 *CONTACT INITIALIZATION ASSIGNMENT\n{rows}\n"
+            );
+            close(carried(&cards), right, 1e-9);
+        }
     }
 }

@@ -479,7 +479,7 @@ fn tied(fields: Fields<'_>) -> Option<Tied> {
     })
 }
 
-fn start(fields: Fields<'_>) -> Start {
+pub(super) fn start(fields: Fields<'_>) -> Start {
     Start {
         close_gaps_below: fields.number("close_gaps_below"),
         close_gaps_of: fields.text_if("close_gaps_of"),

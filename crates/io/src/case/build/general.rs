@@ -3,7 +3,7 @@
 use super::super::fields::Fields;
 use super::super::parts::*;
 use super::builder::Builder;
-use super::contact::{method, per};
+use super::contact::{method, per, start};
 use crate::diagnostic::{Diagnostic, Place, codes};
 
 /// Keys of a contact that mean nothing where pairs are found, with what to write instead.
@@ -96,9 +96,9 @@ impl Builder<'_> {
             friction: has("friction").then(|| self.friction(fields)),
             enforcement: has("enforcement").then(|| (self.enforcement(fields), per(fields))),
             method: has("method").then(|| method(fields)),
-            between,
             secondary,
-            place,
+            start: has("start").then(|| start(fields.table("start"))),
+            ..GeneralPair::new(between, place)
         }
     }
 }

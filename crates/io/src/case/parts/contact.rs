@@ -418,8 +418,26 @@ pub struct GeneralPair {
     pub method: Option<Spanned<Method>>,
     /// The one that carries the points.
     pub secondary: Option<Name>,
+    /// What is done about gaps and overlaps at the start; none: as of all.
+    pub start: Option<Start>,
     /// Where it was written.
     pub place: Place,
+}
+
+impl GeneralPair {
+    /// Two that meet as all others do.
+    #[must_use]
+    pub fn new(between: [Name; 2], place: Place) -> Self {
+        Self {
+            between,
+            friction: None,
+            enforcement: None,
+            method: None,
+            secondary: None,
+            start: None,
+            place,
+        }
+    }
 }
 
 /// The word for everything, in pairs.

@@ -113,6 +113,9 @@ fn general_pair(pair: &GeneralPair) -> Entries {
     if let Some(given) = &pair.secondary {
         entries.push(("secondary", (&given.value).into()));
     }
+    if let Some(given) = &pair.start {
+        entries.push(("start", start(given)));
+    }
     entries
 }
 

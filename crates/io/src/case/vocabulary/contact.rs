@@ -165,12 +165,14 @@ static PAIR: Table = Table {
             Shape::Text,
             "the one of the two that carries the points",
         ),
+        key("start", Shape::Table(&START), START.doc).hints(&["adjust", "initial"]),
     ],
     rules: &[Rule::AtLeastOne(&[
         "friction",
         "enforcement",
         "method",
         "secondary",
+        "start",
     ])],
 };
 const METHODS: &[Choice] = &[

@@ -49,6 +49,32 @@ fn pairs_have_interactions_and_roles_of_their_own() {
     assert_eq!(role.secondary.as_ref().unwrap().value, "TABLE");
 }
 
+/// What is said of the start, of all and of a pair; the last line about a pair wins, whatever the line before it was about.
+#[test]
+fn pairs_start_as_their_data_say() {
+    let data = "*CONTACT INITIALIZATION DATA, NAME=FIT, INTERFERENCE FIT=0.1\n\
+                *CONTACT INITIALIZATION DATA, NAME=MEASURED, INTERFERENCE FIT\n\
+                *CONTACT INITIALIZATION DATA, NAME=PLAY, INITIAL CLEARANCE=0.2, SEARCH ABOVE=0.3\n\
+                *CONTACT INITIALIZATION DATA, NAME=NOTHING\n";
+    let general = |rows: &str| {
+        let cards = format!("{ALL}{data}*CONTACT INITIALIZATION ASSIGNMENT\n{rows}");
+        case(&cubes(&cards)).general.unwrap()
+    };
+    let all = general(", , PLAY\nFOOT, TABLE, FIT\n, , MEASURED\n");
+    let start = &all.common.start;
+    assert_eq!((start.clearance, start.close_gaps_below), (Some(0.2), 0.3));
+    assert_eq!(start.interference, Interference::StrainFree);
+    let starts = all.pairs.iter().map(|pair| pair.start.clone().unwrap());
+    let starts: Vec<_> = starts
+        .map(|one| (one.clearance, one.interference))
+        .collect();
+    let step = Interference::Step;
+    assert_eq!(starts, [(Some(-0.1), step), (None, step)]);
+    let default = general(", , NOTHING\n").common.start;
+    assert_eq!(default.interference, Interference::StrainFree);
+    assert_eq!((default.clearance, default.close_gaps_below), (None, 0.0));
+}
+
 #[test]
 fn inclusions_and_exclusions_are_pairs_of_surfaces() {
     let only = case(&cubes("*CONTACT\n*CONTACT INCLUSIONS\nFOOT, TABLE\n"))
@@ -86,8 +112,25 @@ fn what_is_not_read_is_refused_by_name() {
             "no surface interaction `K`",
         ),
         (
-            "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT INITIALIZATION DATA, NAME=A\n",
-            "CONTACT INITIALIZATION DATA",
+            "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*SURFACE PROPERTY ASSIGNMENT, PROPERTY=THICKNESS\n, , 0.1\n",
+            "SURFACE PROPERTY ASSIGNMENT",
+        ),
+        (
+            "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT INITIALIZATION ASSIGNMENT\n, , A\n",
+            "no *CONTACT INITIALIZATION DATA `A`",
+        ),
+        (
+            "*CONTACT INITIALIZATION DATA, NAME=A\n",
+            "*CONTACT INITIALIZATION DATA stands without *CONTACT",
+        ),
+        (
+            "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n\
+             *CONTACT INITIALIZATION DATA, NAME=A, INTERFERENCE FIT, INITIAL CLEARANCE=0.1\n",
+            "exclude each other",
+        ),
+        (
+            "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT INITIALIZATION DATA, NAME=A, INTERFERENCE FIT=-0.1\n",
+            "INTERFERENCE FIT is negative",
         ),
         ("*CONTACT\n*CONTACT INCLUSIONS\nFOOT, ROOF\n", "ROOF"),
     ] {

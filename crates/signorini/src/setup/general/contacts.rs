@@ -167,6 +167,9 @@ impl General {
             if let Some(method) = &own.method {
                 contact.method = method.clone();
             }
+            if let Some(start) = &own.start {
+                contact.start = start.clone();
+            }
         }
         contact
     }
