@@ -1,7 +1,8 @@
 //! The module of all keys of cases for Python, written from the schema.
 //!
 //! Every table becomes a class, every key an attribute with its type, its meaning and its default. Tables with the same
-//! keys share a class. Inner tables stand before the tables that contain them.
+//! keys share a class, which is called after the one with the shortest path. Inner tables stand before the tables that
+//! contain them.
 
 use super::keys::{alternatives, others};
 use super::reference::{properties, sentence, values};
@@ -107,6 +108,8 @@ struct Class<'a> {
 #[derive(Default)]
 struct Module<'a> {
     classes: Vec<Class<'a>>,
+    /// The keys of tables, each with the shortest path to a table that has them.
+    homes: Vec<(&'a Json, String)>,
     text: String,
     dicts: String,
 }
@@ -114,12 +117,38 @@ struct Module<'a> {
 /// The module of a schema.
 pub(super) fn module(schema: &Json) -> String {
     let mut module = Module::default();
+    module.find_homes(schema, "");
     module.class(schema, "");
     let Module { text, dicts, .. } = module;
     format!("{HEAD}{text}\n\nif TYPE_CHECKING:\n{dicts}")
 }
 
 impl<'a> Module<'a> {
+    /// Looks at all tables below one.
+    fn find_homes(&mut self, schema: &'a Json, path: &str) {
+        for (key, below) in properties(schema) {
+            let Some(
+                Inside::One(inner)
+                | Inside::List(inner)
+                | Inside::Named(inner)
+                | Inside::Either(inner),
+            ) = table(below)
+            else {
+                continue;
+            };
+            let path = join(path, key);
+            if let Some(keys) = inner.get("properties") {
+                let depth = |path: &str| path.matches('.').count();
+                match self.homes.iter_mut().find(|(known, _)| *known == keys) {
+                    Some((_, home)) if depth(&path) < depth(home) => home.clone_from(&path),
+                    Some(_) => {}
+                    None => self.homes.push((keys, path.clone())),
+                }
+            }
+            self.find_homes(inner, &path);
+        }
+    }
+
     /// The name of the class of a table, which is written where it is not there yet.
     fn class(&mut self, schema: &'a Json, path: &str) -> String {
         let same = |class: &&Class<'_>| {
@@ -128,6 +157,13 @@ impl<'a> Module<'a> {
         if let Some(class) = self.classes.iter().find(same) {
             return class.name.clone();
         }
+        let keys = schema.get("properties");
+        let home = self.homes.iter().find(|(known, _)| keys == Some(*known));
+        let home = home.map(|(_, path)| path.clone());
+        let path = match &home {
+            Some(home) if !is_shape(path) => home,
+            _ => path,
+        };
         let name = class_name(path);
         let base = match path {
             _ if is_shape(path) => "Shape",
@@ -574,6 +610,18 @@ mod tests {
         );
         let point = "        point: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),\n";
         assert!(class.contains(point), "{class}");
+    }
+
+    /// The keys of pairs come before those of the start in the alphabet.
+    #[test]
+    fn a_shared_table_is_called_after_the_shortest_path() {
+        let start = json!({ "properties": { "gap": { "type": "number" } } });
+        let pair = json!({ "type": "array", "items": { "properties": { "start": start } } });
+        let contact = json!({ "properties": { "pair": pair, "start": start } });
+        let module = module(&json!({ "properties": { "contact": contact } }));
+        assert!(module.contains("class ContactStart(Table):"), "{module}");
+        assert!(module.contains("_toml = \"contact.start\""), "{module}");
+        assert!(!module.contains("ContactPairStart"), "{module}");
     }
 
     #[test]

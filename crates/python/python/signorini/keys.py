@@ -340,13 +340,13 @@ class ContactFriction(Table):
     tresca: Key[float | None, float] = Key("Shear traction wherever it touches", "number > 0.0")
 
 
-class ContactPairStart(Table):
+class ContactStart(Table):
     """What is done about gaps and overlaps at the start.
 
-    TOML: `contact.pair.start`.
+    TOML: `contact.start`.
     """
 
-    _toml = "contact.pair.start"
+    _toml = "contact.start"
     clearance: Key[Literal["measured"] | float, Literal["measured"] | float] = Key(
         "Gaps are taken to be this, whatever the mesh says; negative: overlaps",
         "`\"measured\"` or number",
@@ -367,7 +367,7 @@ class ContactPairStart(Table):
         default="bent",
     )
     interference: Key[Literal["step", "increment", "increments", "now", "strain-free"], Literal["step", "increment", "increments", "now", "strain-free"]] = Key(
-        "Overlaps are resolved over the first step; their part of it in its first increment and the rest at once; over what is left of it, measured again in every increment; at once; or stay without pressure",
+        "Step: overlaps are resolved over the first step; increment: over its first two increments; increments: over what is left of it, as each increment finds them; now: at once; strain-free: they stay, without pressure",
         "`\"step\"`, `\"increment\"`, `\"increments\"`, `\"now\"`, `\"strain-free\"`",
         default="step",
     )
@@ -399,11 +399,7 @@ class ContactPair(Table):
         "`\"auto\"`, `\"node-to-node\"`, `\"node-to-segment\"`, `\"gauss-point\"`, `\"mortar\"`",
     )
     secondary: Key[str | None, str] = Key("The one of the two that carries the points", "text")
-    start: One[ContactPairStart] = One(
-        ContactPairStart,
-        "What is done about gaps and overlaps at the start",
-        "a table",
-    )
+    start: One[ContactStart] = One(ContactStart, "What is done about gaps and overlaps at the start", "a table")
 
 
 class ContactRule(Table):
@@ -547,11 +543,7 @@ class Contact(Table):
         "`\"auto\"`, `\"finite\"`, `\"increment\"`, `\"small\"`",
         default="auto",
     )
-    start: One[ContactPairStart] = One(
-        ContactPairStart,
-        "What is done about gaps and overlaps at the start",
-        "a table",
-    )
+    start: One[ContactStart] = One(ContactStart, "What is done about gaps and overlaps at the start", "a table")
     tied: Mixed[ContactTied] = Mixed(
         ContactTied,
         "Whether the sides are joined: false, true or { offset, within }",
@@ -2111,7 +2103,7 @@ if TYPE_CHECKING:
         "rule": ContactRule | Mapping[str, Any],
         "self_": bool,
         "sliding": Literal["auto", "finite", "increment", "small"],
-        "start": ContactPairStart | Mapping[str, Any],
+        "start": ContactStart | Mapping[str, Any],
         "tied": bool | ContactTied | Mapping[str, Any],
     }, total=False)
     OrientationKeys = TypedDict("OrientationKeys", {
