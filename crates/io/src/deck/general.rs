@@ -157,6 +157,23 @@ impl Translation<'_> {
         }
     }
 
+    /// What a line names after its two surfaces; `missing` says that there is none.
+    fn third_of<'a, T>(
+        &mut self,
+        card: &Statement,
+        row: &[Field<'_>],
+        all: &'a BTreeMap<String, T>,
+        missing: &str,
+    ) -> Option<&'a T> {
+        let name = third(row);
+        let found = all.get(&name);
+        if found.is_none() {
+            let text = format!("there {missing} `{name}`");
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+        }
+        found
+    }
+
     /// A line of *CONTACT PROPERTY ASSIGNMENT.
     fn assigned(
         &mut self,
@@ -165,10 +182,8 @@ impl Translation<'_> {
         interactions: &BTreeMap<String, Interaction>,
         (common, pairs): (&mut Contact, &mut Vec<GeneralPair>),
     ) {
-        let named = third(row);
-        let Some(interaction) = interactions.get(&named) else {
-            let text = format!("there is no surface interaction `{named}`");
-            self.error(&codes::UNDEFINED, text, &card.place, "");
+        let Some(interaction) = self.third_of(card, row, interactions, "is no surface interaction")
+        else {
             return;
         };
         if matches!(interaction.law, Law::Tied(_)) {
@@ -259,10 +274,8 @@ impl Translation<'_> {
         data: &BTreeMap<String, Start>,
         (common, pairs): (&mut Contact, &mut Vec<GeneralPair>),
     ) {
-        let named = third(row);
-        let Some(start) = data.get(&named) else {
-            let text = format!("there are no *CONTACT INITIALIZATION DATA `{named}`");
-            self.error(&codes::UNDEFINED, text, &card.place, "");
+        let missing = "are no *CONTACT INITIALIZATION DATA";
+        let Some(start) = self.third_of(card, row, data, missing) else {
             return;
         };
         let between = self.two(card, row);

@@ -4,9 +4,9 @@
 //! bodies ──Skin, Regions──▶ General ──find, at the start and after every increment──▶ pairs of regions ──▶ contacts
 //! ```
 //!
-//! A pair that is found stays. It is a contact as any other, whose sides are regions: what comes near next to a side joins it. What the case says of all
-//! contacts and of pairs becomes its settings. Where a run finds a pair, the model is built again with it: see
-//! [`crate::run`]. The regions depend on the mesh, on supports and on names alone, so that their numbers mean the same in
+//! A pair that is found stays. It is a contact as any other, whose sides are regions: what comes near next to a side
+//! joins it. What the case says of all contacts and of pairs becomes its settings. Where a run finds a pair, the model is
+//! built again with it: see [`crate::run`]. The regions depend on the mesh, on supports and on names alone, so that their numbers mean the same in
 //! every process.
 
 mod contacts;
