@@ -343,8 +343,8 @@ static START: Table = Table {
                 word("now"),
                 word("strain-free"),
             ]),
-            "overlaps are resolved over the first step; their part of it in its first increment and the rest at once; \
-             over what is left of it, measured again in every increment; at once; or stay without pressure",
+            "step: overlaps are resolved over the first step; increment: over its first two increments; increments: over \
+             what is left of it, as each increment finds them; now: at once; strain-free: they stay, without pressure",
         )
         .or(Default::Text("step"))
         .hints(&["overlap", "shrink"]),
