@@ -592,61 +592,63 @@ fn cases_with_named_pairs_at_hand_are_met_without_them() {
     }
 }
 
+/// The deck of a foot of nine elements on a table of four, with these lines for its contact.
+fn foot_on_table(contact: &str) -> String {
+    let mut nodes = String::new();
+    let mut number = 0;
+    for (low, n) in [(0.0, 2), (1.0, 3)] {
+        for k in 0..2 {
+            for j in 0..=n {
+                for i in 0..=n {
+                    number += 1;
+                    let at = |i: usize| f64::from(i as u32) / f64::from(n as u32);
+                    nodes += &format!("{number}, {}, {}, {}\n", at(i), at(j), low + k as f64);
+                }
+            }
+        }
+    }
+    let (mut elements, mut first, mut id) = (String::new(), 1, 0);
+    let mut sides = [String::new(), String::new()];
+    for (body, n) in [2, 3].into_iter().enumerate() {
+        elements += &format!("*ELEMENT, TYPE=C3D8, ELSET=B{body}\n");
+        let row = n + 1;
+        for j in 0..n {
+            for i in 0..n {
+                id += 1;
+                let ring = |k: usize| {
+                    let a = first + k * row * row + j * row + i;
+                    [a, a + 1, a + row + 1, a + row]
+                        .map(|n| n.to_string())
+                        .join(", ")
+                };
+                elements += &format!("{id}, {}, {}\n", ring(0), ring(1));
+                sides[body] += &format!("{id}, {}\n", ["S2", "S1"][body]);
+            }
+        }
+        first += 2 * row * row;
+    }
+    let base: Vec<String> = (1..=9).map(|n| n.to_string()).collect();
+    let head: Vec<String> = (35..=50).map(|n| n.to_string()).collect();
+    format!(
+        "*NODE\n{nodes}{elements}*NSET, NSET=BASE\n{}\n*NSET, NSET=HEAD\n{}\n\
+         *SURFACE, NAME=TABLE\n{}*SURFACE, NAME=FOOT\n{}\
+         *MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=B0, MATERIAL=M\n\
+         *SOLID SECTION, ELSET=B1, MATERIAL=M\n*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.2\n{contact}\
+         *STEP, NLGEOM\n*STATIC\n0.5, 1.\n*BOUNDARY\nBASE, 1, 3\nHEAD, 1, 1, 0.01\nHEAD, 2, 2\nHEAD, 3, 3, -0.02\n*END STEP\n",
+        base.join(", "),
+        head.join(", "),
+        sides[0],
+        sides[1],
+    )
+}
+
 /// A deck with *CONTACT carries what it carries with *CONTACT PAIR.
 #[test]
 fn decks_with_general_contact_are_those_with_pairs() {
-    let deck = |contact: &str| {
-        let mut nodes = String::new();
-        let mut number = 0;
-        for (low, n) in [(0.0, 2), (1.0, 3)] {
-            for k in 0..2 {
-                for j in 0..=n {
-                    for i in 0..=n {
-                        number += 1;
-                        let at = |i: usize| f64::from(i as u32) / f64::from(n as u32);
-                        nodes += &format!("{number}, {}, {}, {}\n", at(i), at(j), low + k as f64);
-                    }
-                }
-            }
-        }
-        let (mut elements, mut first, mut id) = (String::new(), 1, 0);
-        let mut sides = [String::new(), String::new()];
-        for (body, n) in [2, 3].into_iter().enumerate() {
-            elements += &format!("*ELEMENT, TYPE=C3D8, ELSET=B{body}\n");
-            let row = n + 1;
-            for j in 0..n {
-                for i in 0..n {
-                    id += 1;
-                    let ring = |k: usize| {
-                        let a = first + k * row * row + j * row + i;
-                        [a, a + 1, a + row + 1, a + row]
-                            .map(|n| n.to_string())
-                            .join(", ")
-                    };
-                    elements += &format!("{id}, {}, {}\n", ring(0), ring(1));
-                    sides[body] += &format!("{id}, {}\n", ["S2", "S1"][body]);
-                }
-            }
-            first += 2 * row * row;
-        }
-        let base: Vec<String> = (1..=9).map(|n| n.to_string()).collect();
-        let head: Vec<String> = (35..=50).map(|n| n.to_string()).collect();
-        format!(
-            "*NODE\n{nodes}{elements}*NSET, NSET=BASE\n{}\n*NSET, NSET=HEAD\n{}\n\
-             *SURFACE, NAME=TABLE\n{}*SURFACE, NAME=FOOT\n{}\
-             *MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=B0, MATERIAL=M\n\
-             *SOLID SECTION, ELSET=B1, MATERIAL=M\n*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.2\n{contact}\
-             *STEP, NLGEOM\n*STATIC\n0.5, 1.\n*BOUNDARY\nBASE, 1, 3\nHEAD, 1, 1, 0.01\nHEAD, 2, 2\nHEAD, 3, 3, -0.02\n*END STEP\n",
-            base.join(", "),
-            head.join(", "),
-            sides[0],
-            sides[1],
-        )
-    };
     let carried = |contact: &str| {
         let opened = open_text(
             "case.inp".as_ref(),
-            deck(contact).into(),
+            foot_on_table(contact).into(),
             &Reading::default(),
         );
         let loaded = opened.and_then(|opened| opened.with_mesh());
