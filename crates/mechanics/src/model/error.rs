@@ -169,6 +169,16 @@ pub enum ModelError {
         /// The direction.
         component: char,
     },
+    /// One translation or rotation of a reference or rigid body with two motions in one step.
+    #[error("step \"{step}\" prescribes the {motion} of \"{carrier}\" twice, differently")]
+    CarrierClash {
+        /// Name of the step.
+        step: String,
+        /// Name of the reference or body.
+        carrier: String,
+        /// The translation or rotation, in words.
+        motion: String,
+    },
     /// A support or motion of a node of a rigid body.
     #[error("node {node} belongs to the rigid body \"{body}\": support or move the body instead")]
     OnRigidNode {

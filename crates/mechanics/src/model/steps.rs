@@ -4,7 +4,7 @@ use super::label::label;
 use super::{Change, Context, LoadPart, ModelError, StepPart, Target};
 use crate::load::Place;
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, Idealisation, NO_DOF};
+use crate::system::{Dof, DofName, FieldId, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -231,13 +231,25 @@ impl Context<'_> {
     }
 
     fn clash(&self, step: &str, dof: Dof) -> ModelError {
-        let name = self.layout.name(dof).and_then(DofName::displacement);
-        let of_node = |(node, axis)| (label(self.mesh, node), axis);
-        let (node, axis) = name.map_or((0, 0), of_node);
-        ModelError::Clash {
-            step: step.to_string(),
-            node,
-            component: ['x', 'y', 'z'][axis.min(2)],
+        let step = step.to_string();
+        let name = self.layout.name(dof).map(DofName::parts);
+        let (field, entity, component) = name.unwrap_or((FieldId::DISPLACEMENT, 0, 0));
+        let axis = ['x', 'y', 'z'][component.min(2)];
+        let motion = match field {
+            FieldId::TRANSLATION => format!("{axis} displacement"),
+            FieldId::ROTATION => format!("rotation about {axis}"),
+            _ => {
+                return ModelError::Clash {
+                    step,
+                    node: label(self.mesh, entity),
+                    component: axis,
+                };
+            }
+        };
+        ModelError::CarrierClash {
+            step,
+            carrier: self.carrier_name(entity),
+            motion,
         }
     }
 }

@@ -74,6 +74,12 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             let help = "take the node out of one of the two sets";
             (&codes::CLASH, found.map(|s| &s.place), help)
         }
+        ModelError::CarrierClash { step, .. } => {
+            let found = case.steps.iter().find(|s| s.name.value == *step);
+            let help =
+                "leave the direction out of [[step.fix]], or the motion out of [[step.move]]";
+            (&codes::CLASH, found.map(|s| &s.place), help)
+        }
         ModelError::Load { load, source } => {
             let (code, help) = of_load_error(source);
             (code, of_load(case, load), help)

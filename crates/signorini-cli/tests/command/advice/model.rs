@@ -467,6 +467,33 @@ fn a_node_that_follows_two_references() {
 }
 
 #[test]
+fn a_reference_that_is_held_and_moved() {
+    for (held, says) in [
+        ("u = \"all\"", "the y displacement of \"pilot\" twice"),
+        ("rot = \"all\"", "the rotation about z of \"pilot\" twice"),
+    ] {
+        let fix = format!("[[step.fix]]\non = \"pilot\"\n{held}\n");
+        let moved = change(PILOT_MOVED, "rz = 0", "rz = 0.01");
+        let steps = moved + &fix;
+        let text = Blocks {
+            more: PILOT,
+            steps: steps.leak(),
+            ..BLOCKS
+        }
+        .text();
+        Trial {
+            text,
+            code: 4,
+            says: &["S0305", "step \"press\"", says, "case.toml:"],
+            help: "leave the direction out of [[step.fix]]",
+            remedy: Remedy::Change(fix.leak(), ""),
+            gone: None,
+        }
+        .holds();
+    }
+}
+
+#[test]
 fn a_support_of_a_node_that_follows() {
     let steps = PILOT_MOVED.to_owned() + "[[step.fix]]\non = \"high_top\"\nu = [\"x\"]\n";
     let text = Blocks {
