@@ -53,8 +53,9 @@ pub const CONTACT_COLUMNS: [&str; 16] = [
 
 /// The columns of every reference in `history.csv`, after its name and a dot.
 ///
-/// Forces and moments are what contact exerts on the carrier, about the reference.
-pub const REFERENCE_COLUMNS: [&str; 12] = [
+/// Forces and moments are what contact exerts on the carrier, about the reference; reactions what supports and prescribed
+/// motions do.
+pub const REFERENCE_COLUMNS: [&str; 18] = [
     "force_x",
     "force_y",
     "force_z",
@@ -67,6 +68,12 @@ pub const REFERENCE_COLUMNS: [&str; 12] = [
     "rotation_x",
     "rotation_y",
     "rotation_z",
+    "reaction_force_x",
+    "reaction_force_y",
+    "reaction_force_z",
+    "reaction_moment_x",
+    "reaction_moment_y",
+    "reaction_moment_z",
 ];
 
 /// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references and chosen `name.quantity` columns, in
@@ -236,7 +243,8 @@ mod tests {
             "time,step,increment,iterations,c.force_x,c.force_y,c.force_z,c.moment_x,c.moment_y,c.moment_z,\
              c.pressure_max,c.gap_min,c.slip_max,c.area_open,c.area_stick,c.area_slip,c.center_x,c.center_y,c.center_z,\
              c.work_friction,r.force_x,r.force_y,r.force_z,r.moment_x,r.moment_y,r.moment_z,r.displacement_x,\
-             r.displacement_y,r.displacement_z,r.rotation_x,r.rotation_y,r.rotation_z,pull.force_z\n"
+             r.displacement_y,r.displacement_z,r.rotation_x,r.rotation_y,r.rotation_z,r.reaction_force_x,r.reaction_force_y,\
+             r.reaction_force_z,r.reaction_moment_x,r.reaction_moment_y,r.reaction_moment_z,pull.force_z\n"
         );
         assert_eq!(
             header(&CONVERGENCE_COLUMNS),

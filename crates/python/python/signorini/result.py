@@ -547,6 +547,16 @@ class ContactHistory:
         return self._vector("rotation")
 
     @property
+    def reaction_force(self) -> Floats:
+        """Forces `(n_inc, 3)` of supports and prescribed motions on a reference."""
+        return self._vector("reaction_force")
+
+    @property
+    def reaction_moment(self) -> Floats:
+        """Moments `(n_inc, 3)` of supports and prescribed motions on a reference, about its point."""
+        return self._vector("reaction_moment")
+
+    @property
     def quantities(self) -> list[str]:
         """The columns there are: pressure_max, gap_min, slip_max, area_open, area_stick, area_slip, …"""
         start = f"{self.name}."
@@ -649,7 +659,7 @@ class Result(Sequence[Frame]):
 
     @property
     def reference(self) -> Mapping[str, ContactHistory]:
-        """References and rigid bodies over time, by name: force, moment, displacement, rotation."""
+        """References and rigid bodies over time, by name: force, moment, displacement, rotation, reaction_force, reaction_moment."""
         return _Histories(self.history, "rotation_z")
 
     @property

@@ -224,9 +224,19 @@ fn of_contact(c: &ContactFrame) -> [f64; CONTACT_COLUMNS.len()] {
 }
 
 fn of_reference(r: &RigidFrame) -> [f64; REFERENCE_COLUMNS.len()] {
-    let (f, m) = (r.contact.force, r.contact.moment);
-    let (u, t) = (r.displacement, r.rotation);
-    [f.x, f.y, f.z, m.x, m.y, m.z, u.x, u.y, u.z, t.x, t.y, t.z]
+    let vectors = [
+        r.contact.force,
+        r.contact.moment,
+        r.displacement,
+        r.rotation,
+        r.reaction_force,
+        r.reaction_moment,
+    ];
+    let mut values = [0.0; REFERENCE_COLUMNS.len()];
+    for (to, of) in values.chunks_exact_mut(3).zip(vectors) {
+        to.copy_from_slice(&of.to_array());
+    }
+    values
 }
 
 fn choose(

@@ -26,6 +26,7 @@ mod pin;
 mod prescribed;
 mod pushed;
 mod random;
+mod references;
 mod rings;
 mod rotation;
 mod sharp;
