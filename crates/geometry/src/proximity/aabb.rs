@@ -135,6 +135,18 @@ impl Aabb {
         extent.x + extent.y + extent.z
     }
 
+    /// The largest `direction · x` of its points; of no meaning where the box contains nothing.
+    #[must_use]
+    pub fn furthest(&self, direction: Vec3) -> f64 {
+        let along = |i: usize| match direction[i] {
+            d if d > 0.0 => d * self.max[i],
+            d if d < 0.0 => d * self.min[i],
+            // whatever the bound
+            _ => 0.0,
+        };
+        along(0) + along(1) + along(2)
+    }
+
     /// The square of the distance from a point to the box, 0 inside; of no meaning where the box contains nothing.
     #[must_use]
     pub fn distance_squared(&self, p: Vec3) -> f64 {

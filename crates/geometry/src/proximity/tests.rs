@@ -132,6 +132,24 @@ fn closest(
 }
 
 #[test]
+fn a_box_reaches_as_far_as_its_furthest_corner() {
+    let mut random = Random(7);
+    for _ in 0..1000 {
+        let (b, d) = (random.aabb(0.5), random.vector());
+        let corner = |k: usize| {
+            let side = |i: usize| if k >> i & 1 == 1 { b.max[i] } else { b.min[i] };
+            Vec3::new(side(0), side(1), side(2))
+        };
+        let right = (0..8)
+            .map(|k| d.dot(corner(k)))
+            .fold(f64::NEG_INFINITY, f64::max);
+        assert!((b.furthest(d) - right).abs() < 1e-14);
+    }
+    assert_eq!(ALL_Y.furthest(Vec3::new(1.0, 0.0, -1.0)), 0.2);
+    assert_eq!(ALL_Y.furthest(Vec3::unit(1)), f64::INFINITY);
+}
+
+#[test]
 fn distance_to_a_box_is_that_of_its_closest_point() {
     let mut random = Random(1);
     for _ in 0..1000 {

@@ -26,6 +26,7 @@
 //! Limits: an overlap deeper than half the thickness is none. Sharp tips are thin, and rest on others no deeper than that.
 
 use super::on_facet::OnFacet;
+use signorini_geometry::element::Family;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::{Aabb, Bvh};
 use signorini_geometry::surface::{
@@ -35,9 +36,6 @@ use signorini_geometry::tensor::Vec3;
 
 /// cos 80°, of the angle up to which facets face one another (E1): mortar weights end there, too.
 const FACES: f64 = 0.173_648_177_666_930_33;
-
-/// The cosine of normals at the middle of facets above which no two points of them face one another.
-const ALIKE: f64 = 0.5;
 
 /// The cosine of the angle up to which facets around a node carry its force.
 const BEARS: f64 = 0.5;
@@ -66,6 +64,8 @@ pub struct OwnBody {
 #[derive(Clone, Debug, Default)]
 pub struct OwnNow {
     normal: Vec<Vec3>,
+    /// How far the normals of each facet differ from that at its middle, at most.
+    turn: Vec<f64>,
     thickness: Vec<f64>,
 }
 
@@ -145,6 +145,7 @@ impl OwnBody {
         for (facet, behind) in (0..).zip(&self.behind) {
             let (thickness, normal) = self.of_facet(surface, at, facet, *behind);
             now.normal.push(normal);
+            now.turn.push(turn(surface, at, facet, normal));
             now.thickness.push(thickness);
         }
         now
@@ -205,6 +206,11 @@ impl OwnNow {
         self.normal.get(facet as usize).copied().unwrap_or_default()
     }
 
+    fn turn(&self, facet: u32) -> f64 {
+        let of_facet = self.turn.get(facet as usize).copied();
+        of_facet.unwrap_or(f64::INFINITY)
+    }
+
     pub(super) fn thickness(&self, facet: u32) -> f64 {
         let of_facet = self.thickness.get(facet as usize).copied();
         of_facet.unwrap_or(f64::INFINITY)
@@ -218,16 +224,33 @@ impl OwnPoint<'_> {
         self.normal.dot(normal) < -FACES
     }
 
-    /// Whether a facet may have a point that it meets, by the normal at the middle of the facet.
+    /// Whether a facet within `bounds` may have a point that this one, at `point`, meets. Most neighbours and the far side of
+    /// the own body have none, and need no projection.
     #[must_use]
-    pub fn may_meet(&self, facet: u32) -> bool {
-        self.normal.dot(self.of.normal(facet)) < ALIKE
+    pub fn may_meet(&self, facet: u32, bounds: &Aabb, point: Vec3) -> bool {
+        if self.normal.dot(self.of.normal(facet)) - self.of.turn(facet) >= -FACES {
+            return false; // (E1)
+        }
+        let deepest = self.deepest(facet);
+        let distance = bounds.distance_squared(point).sqrt();
+        // what is further away than that is in front, if anything of the facet is
+        let least = match distance <= deepest {
+            true => -deepest, // (E2)
+            false => FACES * distance,
+        };
+        let slack = ROUNDING * (distance + bounds.extent().norm());
+        bounds.furthest(self.normal) - self.normal.dot(point) >= least - slack // (E3)
+    }
+
+    /// How deep it may be behind a facet, or that behind it.
+    fn deepest(&self, facet: u32) -> f64 {
+        ENTERED * self.thickness.min(self.of.thickness(facet))
     }
 
     /// Whether it meets this closest point: (E1) to (E3).
     #[must_use]
     pub fn meets(&self, point: Vec3, found: &Projection, jet: &SurfaceJet) -> bool {
-        let deepest = ENTERED * self.thickness.min(self.of.thickness(found.anchor.facet));
+        let deepest = self.deepest(found.anchor.facet);
         let to = jet.position - point;
         let ahead = self.normal.dot(to);
         let is_behind = to.dot(jet.normal) > 0.0;
@@ -240,8 +263,32 @@ impl OwnPoint<'_> {
     }
 }
 
+/// How far the normals of a facet differ from that at its middle, at most. Those of a face with four nodes are between those
+/// at its corners; those of a face that bends may differ by more than at its nodes.
+fn turn(surface: &dyn ContactSurface, at: &Placement, facet: u32, middle: Vec3) -> f64 {
+    let Some(element) = surface.domain(facet) else {
+        return f64::INFINITY;
+    };
+    if element.is_linear() && element.family() != Family::Quadrilateral {
+        return 0.0;
+    }
+    let mut jet = SurfaceJet::default();
+    let mut most: f64 = 0.0;
+    for &local in element.nodes() {
+        most = match surface.jet(at, &Anchor { facet, local }, &mut jet) {
+            Ok(()) => most.max((jet.normal - middle).norm()),
+            Err(_) => f64::INFINITY,
+        };
+    }
+    if element.is_linear() {
+        most
+    } else {
+        2.0 * most
+    }
+}
+
 /// Place and normal of the middle of a facet; no normal where it has none.
-fn middle(surface: &dyn ContactSurface, at: &Placement, facet: u32) -> (Vec3, Vec3) {
+pub(super) fn middle(surface: &dyn ContactSurface, at: &Placement, facet: u32) -> (Vec3, Vec3) {
     let mut jet = SurfaceJet::default();
     let local = surface.domain(facet).map(|e| e.centre());
     let found = local.map(|local| surface.jet(at, &Anchor { facet, local }, &mut jet));

@@ -53,6 +53,7 @@ use super::{Anchored, OwnPoint, Pair};
 use crate::contact::row::{Participant, Row, RowOrder, Rows, Wanted};
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::mesh::NodeId;
+use signorini_geometry::proximity::Aabb;
 use signorini_geometry::surface::{
     Anchor, Carrier, ContactSurface, Feature, Placement, Projection, SurfaceError, SurfaceJet,
     extended_edge, extended_face, pair,
@@ -99,6 +100,14 @@ pub struct Sight<'a> {
     pub own: Option<OwnPoint<'a>>,
 }
 
+impl Sight<'_> {
+    /// Whether a facet within these bounds may have a point that counts.
+    fn may_meet(&self, facet: u32, bounds: &Aabb, point: Vec3) -> bool {
+        self.own
+            .is_none_or(|own| own.may_meet(facet, bounds, point))
+    }
+}
+
 /// Who moves a facet.
 fn carried_by(carrier: Carrier<'_>) -> impl Iterator<Item = Participant> + '_ {
     let (nodes, body) = match carrier {
@@ -140,16 +149,20 @@ fn likely(
     at: &Placement,
     point: Vec3,
     near: &[u32],
-    hint: Option<Anchor>,
+    sight: &Sight<'_>,
 ) -> ([u32; LIKELY], usize) {
-    let hinted = hint.map(|hint| hint.facet);
-    let distance = |&facet: &u32| match hinted == Some(facet) {
-        true => -1.0,
-        false => surface.aabb(at, facet).distance_squared(point),
+    let hinted = sight.hint.map(|hint| hint.facet);
+    let distance = |&facet: &u32| {
+        let bounds = surface.aabb(at, facet);
+        match (sight.may_meet(facet, &bounds, point), hinted) {
+            (false, _) => None,
+            (true, Some(hinted)) if hinted == facet => Some((facet, -1.0)),
+            _ => Some((facet, bounds.distance_squared(point))),
+        }
     };
     let (mut facets, mut distances) = ([0; LIKELY], [f64::INFINITY; LIKELY]);
     let mut count = 0;
-    for (facet, own) in near.iter().map(|facet| (*facet, distance(facet))) {
+    for (facet, own) in near.iter().filter_map(distance) {
         let place = distances[..count].partition_point(|d| *d <= own);
         if place == LIKELY {
             continue;
@@ -187,17 +200,18 @@ pub fn closest(
     let mut jet = SurfaceJet::default();
     let mut best: Option<(Projection, f64)> = None;
     // a small distance found first passes over most of the others
-    let (first, count) = likely(surface, at, point, near, hint);
+    let (first, count) = likely(surface, at, point, near, sight);
     let first = &first[..count];
     let others = near.iter().filter(|facet| !first.contains(facet));
     for &facet in first.iter().chain(others) {
+        let bounds = surface.aabb(at, facet);
         if let Some((b, tie)) = &best {
             let reach = b.distance + tie;
-            if surface.aabb(at, facet).distance_squared(point) > reach * reach {
+            if bounds.distance_squared(point) > reach * reach {
                 continue;
             }
         }
-        if own.is_some_and(|own| !own.may_meet(facet)) {
+        if !sight.may_meet(facet, &bounds, point) {
             continue;
         }
         let Some(found) = surface.project(at, facet, point, hint, &mut jet)? else {

@@ -435,3 +435,39 @@ fn a_surface_sees_of_itself_what_it_may_touch_and_nothing_else() {
         }
     }
 }
+
+/// Of the facets within reach, those that no projection is needed for are none that are met, and they are most.
+#[test]
+fn facets_that_need_no_projection_are_none_that_are_met() {
+    let (mut near, mut projected) = (0, 0);
+    for skin in skins(0.6) {
+        for kind in KINDS {
+            let (surface, x, _, bodies) = surface(&skin, kind, std::f64::consts::FRAC_PI_6);
+            let at = Placement { x: &x, poses: &[] };
+            let pair = itself(&surface, &bodies, &x);
+            let now = pair.own.as_ref().unwrap().at(&surface, &at);
+            let mut jet = SurfaceJet::default();
+            for rows in rows(&surface) {
+                for row in 0..rows.nrow() {
+                    let point = rows.point(row);
+                    let place = point.position(&at);
+                    let inside = rows.on_facets().and_then(|points| points.get(row));
+                    let own = pair.own_point(point.nodes, inside, &now).unwrap();
+                    for facet in 0..surface.nfacet() as u32 {
+                        let bounds = surface.aabb(&at, facet);
+                        if pair.is_next_to(point.nodes, facet) || !bounds.within(place, pair.reach)
+                        {
+                            continue;
+                        }
+                        let may = own.may_meet(facet, &bounds, place);
+                        (near, projected) = (near + 1, projected + usize::from(may));
+                        let found = surface.project(&at, facet, place, None, &mut jet).unwrap();
+                        let meets = found.is_some_and(|found| own.meets(place, &found, &jet));
+                        assert!(may || !meets, "{} {kind}: facet {facet}", skin.name);
+                    }
+                }
+            }
+        }
+    }
+    assert!(3 * projected < near, "{projected} of {near}");
+}
