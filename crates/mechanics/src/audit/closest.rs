@@ -28,8 +28,6 @@ const SLACK: f64 = 0.01;
 pub struct Finder<'a> {
     surface: &'a dyn ContactSurface,
     tree: Bvh,
-    /// The facets in the tree; all of them where there are none here.
-    only: Option<Vec<u32>>,
     at: Placement<'a>,
     /// Where all is now, if `at` is the start.
     now: Option<Placement<'a>>,
@@ -72,16 +70,12 @@ pub struct Met {
 impl<'a> Finder<'a> {
     pub fn new(
         surface: &'a dyn ContactSurface,
-        only: Option<Vec<u32>>,
         at: Placement<'a>,
         now: Option<Placement<'a>>,
         same: bool,
     ) -> Self {
         let aabb = |facet| surface.aabb(&at, facet);
-        let boxes: Vec<Aabb> = match &only {
-            Some(facets) => facets.iter().map(|&f| aabb(f)).collect(),
-            None => (0..surface.nfacet() as u32).map(aabb).collect(),
-        };
+        let boxes: Vec<Aabb> = (0..surface.nfacet() as u32).map(aabb).collect();
         let bounded = boxes.iter().filter(|b| b.is_bounded());
         let size = bounded
             .map(|b| b.extent().max_abs())
@@ -90,7 +84,6 @@ impl<'a> Finder<'a> {
             surface,
             slack: if size.is_finite() { SLACK * size } else { 0.0 },
             tree: Bvh::build(&boxes),
-            only,
             at,
             now,
             same,
@@ -102,11 +95,7 @@ impl<'a> Finder<'a> {
     pub fn find(&self, seeker: &Seeker<'_>) -> Option<Met> {
         let mut jet = SurfaceJet::default();
         let mut near = [(f64::INFINITY, u32::MAX); NEAR];
-        self.tree.visit_near(seeker.point, |k| {
-            let facet = match &self.only {
-                Some(facets) => facets.get(k as usize).copied().unwrap_or(k),
-                None => k,
-            };
+        self.tree.visit_near(seeker.point, |facet| {
             let looked = (!seeker.own.contains(&facet))
                 .then(|| self.look(facet, seeker, &mut jet))
                 .flatten();

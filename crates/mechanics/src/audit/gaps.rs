@@ -59,7 +59,7 @@ pub fn look(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) -> Seen
     }
     let at = sides.searched();
     let held = sides.start.map(|_| sides.now);
-    let finder = Finder::new(sides.primary, None, at, held, sides.same);
+    let finder = Finder::new(sides.primary, at, held, sides.same);
     let nodes = from_nodes(support, sides, &finder);
     let mut hit: Vec<u32> = nodes.iter().flatten().map(|met| met.facet).collect();
     hit.sort_unstable();
@@ -111,15 +111,15 @@ fn from_nodes(support: &Support<'_>, sides: &Sides<'_>, finder: &Finder<'_>) -> 
         let near =
             support.is_closed.get(k) == Some(&true) || support.around(k).iter().any(supports);
         let own = if sides.same { support.around(k) } else { &[] };
+        let id = of.nodes.get(k).copied()?;
         let seeker = Seeker {
             within: if near { f64::INFINITY } else { node.size },
             own,
-            ..seeker(of.nodes.get(k).copied()?, node.normal, sides)?
+            ..seeker(id, node.normal, sides)?
         };
         let met = finder.find(&seeker)?;
         // a point behind a facet at the start has not gone through it
-        let was_behind =
-            sides.same && met.gap < 0.0 && is_behind(sides, met.facet, *of.nodes.get(k)?);
+        let was_behind = sides.same && met.gap < 0.0 && is_behind(sides, met.facet, id);
         (!was_behind).then_some(met)
     };
     let all = (0..of.nodes.len()).into_par_iter().with_min_len(TASK);
@@ -181,7 +181,7 @@ fn bend(sides: &Sides<'_>, facet: u32) -> Bend {
     }
 }
 
-/// Looks back from the corners of these facets and those around them to the facets of the support.
+/// Looks back from the corners of these facets and those around them to the facets of the secondary side.
 fn from_corners(support: &Support<'_>, sides: &Sides<'_>, hit: Vec<u32>) -> Vec<f64> {
     let mut smallest = vec![f64::INFINITY; support.facets.len()];
     let Some(secondary) = sides.secondary else {
@@ -213,14 +213,8 @@ fn from_corners(support: &Support<'_>, sides: &Sides<'_>, hit: Vec<u32>) -> Vec<
     // one facet of each node is enough to say which way it faces
     corners.sort_by_key(|c| c.0);
     corners.dedup_by_key(|c| c.0);
-    let supports = support
-        .facets
-        .iter()
-        .enumerate()
-        .filter(|(_, f)| f.supports);
-    let only: Vec<u32> = supports.map(|(f, _)| f as u32).collect();
     let held = sides.start.map(|_| sides.now);
-    let finder = Finder::new(secondary, Some(only), at, held, false);
+    let finder = Finder::new(secondary, at, held, false);
     let look = |&(node, normal): &(u32, Vec3)| {
         let met = finder.find(&seeker(node, normal, sides)?)?;
         let size = support.facets.get(met.facet as usize)?.size;
@@ -293,7 +287,7 @@ pub fn apart(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules, seen: 
         if gap > allowed && sides.primary.nfacet() > 0 {
             let held = sides.start.map(|_| sides.now);
             let finder = grid.get_or_insert_with(|| {
-                Finder::new(sides.primary, None, sides.searched(), held, sides.same)
+                Finder::new(sides.primary, sides.searched(), held, sides.same)
             });
             gap = gap.min(shifted(over_grid(support, sides, finder, k)));
         }

@@ -71,16 +71,18 @@ pub fn contact(
         force: support.force,
         checks: Default::default(),
     };
-    if support.force <= 0.0 {
-        return audit;
-    }
-    if !rules.joined() {
+    let presses = support.force > 0.0;
+    if !rules.joined() && (presses || sides.overlap(of)) {
         let seen = gaps::look(&support, sides, rules);
-        audit.checks[0] = gaps::apart(&support, sides, rules, &seen);
         audit.checks[1] = gaps::through(&support, rules, &seen);
-        audit.checks[2] = direction::check(&support, sides, rules, &seen);
+        if presses {
+            audit.checks[0] = gaps::apart(&support, sides, rules, &seen);
+            audit.checks[2] = direction::check(&support, sides, rules, &seen);
+        }
     }
-    audit.checks[3] = stress::check(&support, frame, rules);
+    if presses {
+        audit.checks[3] = stress::check(&support, frame, rules);
+    }
     audit
 }
 

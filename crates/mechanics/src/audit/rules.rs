@@ -2,6 +2,7 @@
 
 use crate::system::{ContactFrame, Measured};
 use signorini_geometry::mesh::NodeId;
+use signorini_geometry::proximity::Aabb;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};
 use signorini_geometry::tensor::Vec3;
 
@@ -29,6 +30,21 @@ impl<'a> Sides<'a> {
             Some(start) => start,
             None => self.now,
         }
+    }
+}
+
+impl Sides<'_> {
+    /// Whether boxes around both sides have a point in common; where they have none, no side is inside the other.
+    pub(super) fn overlap(&self, of: &ContactFrame) -> bool {
+        let at = self.searched();
+        let nodes = of.nodes.iter();
+        let places = nodes.filter_map(|&node| at.x.get(node as usize).copied());
+        let secondary = Aabb::around(places);
+        let facets = 0..self.primary.nfacet() as u32;
+        let primary = facets.map(|facet| self.primary.aabb(&at, facet));
+        let primary = primary.fold(Aabb::EMPTY, Aabb::union);
+        // nodes that have moved from where the geometry is held may be anywhere
+        self.start.is_some() || secondary.overlaps(&primary)
     }
 }
 

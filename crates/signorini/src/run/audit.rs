@@ -77,12 +77,14 @@ impl Audit {
         for audit in &frame.audits {
             let largest = self.forces.entry(audit.name.clone()).or_default();
             *largest = largest.max(audit.force);
-            if audit.force < OF_ROUNDING * *largest {
-                continue;
-            }
+            let presses = audit.force >= OF_ROUNDING * *largest;
             let kept = self.contacts.entry(audit.name.clone()).or_default();
-            for (kept, measured) in kept.iter_mut().zip(&audit.checks) {
-                kept.take(measured, frame.time);
+            let checks = Check::ALL.iter().zip(&audit.checks);
+            for (kept, (check, measured)) in kept.iter_mut().zip(checks) {
+                // sides that are inside each other without a force are no less so
+                if presses || *check == Check::Through {
+                    kept.take(measured, frame.time);
+                }
             }
         }
     }
