@@ -38,6 +38,14 @@ impl Rules for Law {
         None
     }
 
+    fn deepest(&self, _: NodeId, _: u32) -> f64 {
+        f64::INFINITY
+    }
+
+    fn deepest_back(&self, _: NodeId, _: u32) -> f64 {
+        f64::INFINITY
+    }
+
     fn is_rigid(&self, _: NodeId) -> bool {
         false
     }

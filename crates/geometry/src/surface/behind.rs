@@ -2,7 +2,7 @@
 
 use super::{ContactSurface, Facets};
 use crate::mesh::quality::parts;
-use crate::mesh::{CellId, Mesh};
+use crate::mesh::{CellId, Mesh, NodeId};
 
 /// Bodies made of cells: those that are connected by nodes. Found once, whatever the number of surfaces.
 #[derive(Clone, Debug)]
@@ -25,14 +25,19 @@ impl Bodies {
         Self { of_node }
     }
 
+    /// The number of the body of a node; none where it is of no cell.
+    #[must_use]
+    pub fn of(&self, node: NodeId) -> Option<u32> {
+        self.of_node.get(node as usize).copied().flatten()
+    }
+
     /// The number of the body behind each facet of a surface. A node of no cell is a body of its own.
     #[must_use]
     pub fn behind(&self, facets: &Facets) -> Vec<u32> {
         let of = |facet: u32| {
             let node = facets.nodes(facet).first().copied().unwrap_or_default();
-            let body = self.of_node.get(node as usize).copied().flatten();
             // numbers of nodes begin at the other end
-            body.unwrap_or(u32::MAX - node)
+            self.of(node).unwrap_or(u32::MAX - node)
         };
         (0..facets.nfacet() as u32).map(of).collect()
     }

@@ -60,7 +60,7 @@ pub fn look(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) -> Seen
     let at = sides.searched();
     let held = sides.start.map(|_| sides.now);
     let finder = Finder::new(sides.primary, at, held, sides.same);
-    let nodes = from_nodes(support, sides, &finder);
+    let nodes = from_nodes(support, (sides, rules), &finder);
     let mut hit: Vec<u32> = nodes.iter().flatten().map(|met| met.facet).collect();
     hit.sort_unstable();
     hit.dedup();
@@ -70,7 +70,7 @@ pub fn look(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) -> Seen
         // a corner is its own closest point there
         vec![f64::INFINITY; support.facets.len()]
     } else {
-        from_corners(support, sides, hit)
+        from_corners(support, (sides, rules), hit)
     };
     Seen {
         nodes,
@@ -103,7 +103,11 @@ fn from_partners(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) ->
 }
 
 /// Looks from the nodes: those that press as far as it goes, others as far as a facet.
-fn from_nodes(support: &Support<'_>, sides: &Sides<'_>, finder: &Finder<'_>) -> Vec<Option<Met>> {
+fn from_nodes(
+    support: &Support<'_>,
+    (sides, rules): (&Sides<'_>, &dyn Rules),
+    finder: &Finder<'_>,
+) -> Vec<Option<Met>> {
     let of = support.of;
     let look = |k: usize| {
         let node = support.nodes.get(k)?;
@@ -118,9 +122,10 @@ fn from_nodes(support: &Support<'_>, sides: &Sides<'_>, finder: &Finder<'_>) -> 
             ..seeker(id, node.normal, sides)?
         };
         let met = finder.find(&seeker)?;
+        let is_through = met.gap < 0.0 && -met.gap > rules.deepest(id, met.facet);
         // a point behind a facet at the start has not gone through it
         let was_behind = sides.same && met.gap < 0.0 && is_behind(sides, met.facet, id);
-        (!was_behind).then_some(met)
+        (!was_behind && !is_through).then_some(met)
     };
     let all = (0..of.nodes.len()).into_par_iter().with_min_len(TASK);
     all.map(look).collect()
@@ -182,7 +187,11 @@ fn bend(sides: &Sides<'_>, facet: u32) -> Bend {
 }
 
 /// Looks back from the corners of these facets and those around them to the facets of the secondary side.
-fn from_corners(support: &Support<'_>, sides: &Sides<'_>, hit: Vec<u32>) -> Vec<f64> {
+fn from_corners(
+    support: &Support<'_>,
+    (sides, rules): (&Sides<'_>, &dyn Rules),
+    hit: Vec<u32>,
+) -> Vec<f64> {
     let mut smallest = vec![f64::INFINITY; support.facets.len()];
     let Some(secondary) = sides.secondary else {
         return smallest;
@@ -218,7 +227,8 @@ fn from_corners(support: &Support<'_>, sides: &Sides<'_>, hit: Vec<u32>) -> Vec<
     let look = |&(node, normal): &(u32, Vec3)| {
         let met = finder.find(&seeker(node, normal, sides)?)?;
         let size = support.facets.get(met.facet as usize)?.size;
-        (!met.sharp && met.gap.abs() < size).then_some((met.facet, met.gap))
+        let is_through = -met.gap > rules.deepest_back(node, met.facet);
+        (!met.sharp && !is_through && met.gap.abs() < size).then_some((met.facet, met.gap))
     };
     let found: Vec<Option<(u32, f64)>> = corners.par_iter().with_min_len(TASK).map(look).collect();
     for (facet, gap) in found.into_iter().flatten() {

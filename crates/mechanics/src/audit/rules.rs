@@ -60,6 +60,11 @@ pub trait Rules: Sync {
     fn limit(&self, node: usize, pressure: f64) -> Option<f64>;
     /// The node opposite a node, where nodes meet nodes and the other side has no facets.
     fn partner(&self, node: usize) -> Option<NodeId>;
+    /// How deep a node of the secondary side may be behind a facet of the primary side: deeper, it sees it through its own
+    /// body.
+    fn deepest(&self, node: NodeId, primary: u32) -> f64;
+    /// The same of a node of the primary side behind a facet of the secondary side.
+    fn deepest_back(&self, node: NodeId, secondary: u32) -> f64;
     /// Whether a node follows a rigid body, so that no stress carries the forces on it.
     fn is_rigid(&self, node: NodeId) -> bool;
 }

@@ -61,7 +61,8 @@ use constraints::Followers;
 use contact::{Sides, Source};
 use context::Context;
 use held::Held;
-use signorini_geometry::mesh::NodeId;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::Bodies;
 use signorini_geometry::tensor::Vec3;
 use spaces::Spaces;
 use std::sync::Arc;
@@ -166,6 +167,7 @@ impl Model {
         let prescribed = steps::in_whole(&motions, space.ndim());
         let source = Source {
             mesh,
+            bodies: &connected(mesh, contacts),
             reference: &mesh.points,
             space,
             spaces: &spaces,
@@ -361,12 +363,21 @@ fn all_sides(
         let is_free = |part: &ContactPart| part.tie.is_none();
         contacts.rubs(one.contact) && contacts.parts.get(one.contact).is_some_and(is_free)
     };
-    for (number, nodes) in contact::yields(source.mesh, source.reference, &all, &holds) {
+    for (number, nodes) in contact::yields(source.bodies, source.reference, &all, &holds) {
         if let Some((one, _)) = sides.get_mut(number) {
             one.yield_at(nodes);
         }
     }
     Ok(sides)
+}
+
+/// What the solid cells are connected to; nothing where no contact asks.
+fn connected(mesh: &Mesh, contacts: &[ContactPart]) -> Bodies {
+    let cells: Vec<CellId> = match contacts {
+        [] => Vec::new(),
+        _ => mesh.cells(mesh.dim()).collect(),
+    };
+    Bodies::new(mesh, &cells)
 }
 
 /// How large strains are in any of the steps.

@@ -23,6 +23,7 @@ pub mod projected;
 mod reach;
 mod self_contact;
 mod sizes;
+mod wall;
 
 pub use capabilities::{
     Averaged, Capabilities, Curved, HeldAxes, Links, OnRow, Renewable, SlidingRange,
@@ -37,6 +38,7 @@ pub use pair::{Anchored, BentSides, NOWHERE, Pair, Pairing, SurfacePair};
 pub use points::{PointToSegment, areas_inside};
 pub use reach::{REACH, local_reach};
 pub use sizes::FacetSizes;
+pub use wall::Wall;
 
 use super::row::{RowOrder, Rows, Wanted};
 use projected::Point;

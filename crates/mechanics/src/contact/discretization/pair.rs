@@ -3,6 +3,7 @@
 use super::lean::Lean;
 use super::own::OwnBody;
 use super::sizes::FacetSizes;
+use super::wall::Wall;
 use crate::contact::mortar::Weights;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Anchor, Bent, ContactSurface, Facets, Feature};
@@ -27,6 +28,8 @@ pub struct SurfacePair {
     pub same: bool,
     /// The body behind a surface that may touch itself.
     pub own: Option<OwnBody>,
+    /// The body between the sides, where they are two faces of one.
+    pub wall: Option<Wall>,
     /// The normals of the secondary side, which planes that are kept for good lean towards.
     pub lean: Option<Lean>,
 }
@@ -44,6 +47,7 @@ impl SurfacePair {
             start: Vec::new(),
             same: false,
             own: None,
+            wall: None,
             lean: None,
         }
     }

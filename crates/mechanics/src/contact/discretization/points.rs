@@ -194,10 +194,13 @@ impl PointToSegment {
                 ..kept
             }));
         }
+        let nodes = self.point(row).nodes;
+        let deepest = |facet| pair.deepest_from(nodes, inside, facet, at);
         let sight = Sight {
             hint: before.map(|p| p.anchor),
             on: self.closest,
             reach: &|facet| pair.reach_of_row(self, row, facet, at),
+            deepest: pair.wall.is_some().then_some(&deepest),
             own: own.and_then(|now| pair.own_point(self.point(row).nodes, inside, now)),
         };
         let mut found = closest(surface, at, point, near, &sight)?;

@@ -96,6 +96,8 @@ pub struct Sight<'a> {
     pub on: Closest,
     /// The distance up to which a closest point of this facet counts.
     pub reach: &'a dyn Fn(u32) -> f64,
+    /// How deep it may be behind a facet, where both sides are faces of one body.
+    pub deepest: Option<&'a dyn Fn(u32) -> f64>,
     /// The point among its own body, where the surface may touch itself.
     pub own: Option<OwnPoint<'a>>,
 }
@@ -105,6 +107,16 @@ impl Sight<'_> {
     fn may_meet(&self, facet: u32, bounds: &Aabb, point: Vec3) -> bool {
         self.own
             .is_none_or(|own| own.may_meet(facet, bounds, point))
+    }
+
+    /// Whether it meets this closest point, and does not see it through the body that it is of.
+    fn meets(&self, point: Vec3, found: &Projection, jet: &SurfaceJet) -> bool {
+        let is_behind = (point - jet.position).dot(jet.normal) < 0.0;
+        let is_through = |deepest: &dyn Fn(u32) -> f64| {
+            is_behind && found.distance > deepest(found.anchor.facet)
+        };
+        !self.deepest.is_some_and(is_through)
+            && self.own.is_none_or(|own| own.meets(point, found, jet))
     }
 }
 
@@ -187,10 +199,7 @@ pub fn closest(
     sight: &Sight<'_>,
 ) -> Result<Option<Pair>, SurfaceError> {
     let Sight {
-        hint,
-        on,
-        reach,
-        own,
+        hint, on, reach, ..
     } = *sight;
     let rank = |f: &Feature| match f {
         Feature::Face => 0,
@@ -220,7 +229,7 @@ pub fn closest(
         if on == Closest::Within && found.feature != Feature::Face {
             continue;
         }
-        if own.is_some_and(|own| !own.meets(point, &found, &jet)) {
+        if !sight.meets(point, &found, &jet) {
             continue;
         }
         let tie = TIE * (jet.metric[0].max(jet.metric[1])).sqrt();

@@ -13,6 +13,7 @@ const HALVINGS: usize = 60;
 /// The laws of a contact, node by node.
 struct Obeyed<'a> {
     of: &'a Interface,
+    at: Placement<'a>,
     frame: &'a ContactFrame,
     /// The shifts of gaps; empty where there are none.
     shifts: Vec<f64>,
@@ -45,6 +46,7 @@ impl Interface {
         };
         let rules = Obeyed {
             of: self,
+            at: state.placement(),
             frame: of,
             shifts: self.shifts_at_nodes(state.time),
             partners: self.partners(),
@@ -163,6 +165,16 @@ impl Rules for Obeyed<'_> {
 
     fn partner(&self, node: usize) -> Option<NodeId> {
         self.partners.get(node).copied().flatten()
+    }
+
+    fn deepest(&self, node: NodeId, primary: u32) -> f64 {
+        let pair = &self.of.parts.pair;
+        pair.deepest_from(&[node], None, primary, &self.at)
+    }
+
+    fn deepest_back(&self, node: NodeId, secondary: u32) -> f64 {
+        let pair = &self.of.parts.pair;
+        pair.deepest_back(node, secondary, &self.at)
     }
 
     fn is_rigid(&self, node: NodeId) -> bool {

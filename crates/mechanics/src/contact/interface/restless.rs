@@ -162,6 +162,7 @@ mod tests {
                 hint: None,
                 on: Closest::Anywhere,
                 reach: &|_| 1.0,
+                deepest: None,
                 own: None,
             };
             closest(&surface, &placement, point, near, &sight)

@@ -2,13 +2,7 @@
 
 use signorini_geometry::mesh::quality::parts;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::surface::{self, Facets};
-
-/// A number for each facet that it shares with all facets of the same body and with no other.
-pub(super) fn bodies(mesh: &Mesh, facets: &Facets) -> Vec<u32> {
-    let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
-    surface::bodies(mesh, &cells, facets)
-}
+use signorini_geometry::surface::Facets;
 
 /// The solid cells of the bodies that a surface touches.
 pub(super) fn cells_behind(mesh: &Mesh, side: &Facets) -> Vec<CellId> {

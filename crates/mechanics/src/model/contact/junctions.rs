@@ -9,7 +9,7 @@
 //! Source: Wohlmuth, *SIAM J. Numer. Anal.* 38 (2000) 989–1012 (multipliers at cross points).
 
 use super::Sides;
-use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Bodies, ContactSurface, Facets, Placement};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
@@ -32,7 +32,7 @@ struct Holding<'a> {
 /// The nodes whose rows in a contact yield to those in another, with the place of that contact among these sides;
 /// `holds` says of which of these a row holds along all directions.
 pub(in crate::model) fn yields(
-    mesh: &Mesh,
+    bodies: &Bodies,
     x: &[Vec3],
     sides: &[&Sides],
     holds: &dyn Fn(&Sides) -> bool,
@@ -45,8 +45,6 @@ pub(in crate::model) fn yields(
     if holding.len() < 3 {
         return Vec::new();
     }
-    let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
-    let bodies = Bodies::new(mesh, &cells);
     let of = |facets: &Facets| bodies.behind(facets).into_iter().collect::<BTreeSet<u32>>();
     let at = Placement { x, poses: &[] };
     let size = |facets: &Facets| {

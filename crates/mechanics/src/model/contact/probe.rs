@@ -19,7 +19,7 @@
 //! meshed, a ball on a plane and a pin in a wider hole too, where gaps grow by more than s from facet to facet.
 
 use super::Sides;
-use crate::contact::discretization::{BentSides, PointToSegment, SurfacePair};
+use crate::contact::discretization::{BentSides, PointToSegment, SurfacePair, Wall};
 use crate::contact::{Bend, closest_points};
 use crate::model::{BentSummary, ContactPart, Method, StartPlace};
 use signorini_geometry::element::quadrature;
@@ -98,14 +98,11 @@ impl Look {
         if sides.pair.same || matches!(sides.method, Method::NodeToNode { .. }) {
             return Ok(look);
         }
-        let primary = sides.pair.primary.clone();
         let points = PointToSegment::at_nodes(&sides.pair.points);
-        look.nodes = probes(&points, primary, sides.pair.reach, false, at)?;
-        if let (Some(secondary), Some(primary)) = (sides.secondary(), &sides.facets) {
-            let points = PointToSegment::at_nodes(&primary.all_nodes());
-            let others = Arc::new(secondary.clone());
-            let of_primary = probes(&points, others, sides.pair.reach, true, at)?;
-            look.nodes.extend(of_primary);
+        look.nodes = probes(&points, &forth(sides), false, at)?;
+        if let Some(back) = back(sides) {
+            let points = PointToSegment::at_nodes(&back.points);
+            look.nodes.extend(probes(&points, &back, true, at)?);
         }
         let bend = |facets: &Facets| Bent::new(facets, at.x);
         look.bent = BentSides {
@@ -152,15 +149,13 @@ impl Look {
 
     /// Whether bending removes what scatters (E1).
     fn vote(&self, sides: &Sides, at: &Placement) -> Result<Option<BentSummary>, SurfaceError> {
-        let reach = sides.pair.reach;
         let mut probes: Vec<Probe> = self.nodes.clone();
         probes.retain(|probe| !probe.of_primary);
         if let Some(facets) = sides.secondary() {
             let line = quadrature::gauss(POINTS);
             let rule = |element| quadrature::on_facet(element, &line);
             let points = PointToSegment::inside(facets, rule);
-            let primary = sides.pair.primary.clone();
-            probes.extend(self::probes(&points, primary, reach, false, at)?);
+            probes.extend(self::probes(&points, &forth(sides), false, at)?);
         }
         let sagittas: Vec<f64> = probes.iter().map(|p| self.sagitta(p)).collect();
         let largest = sagittas.iter().copied().fold(0.0, f64::max);
@@ -270,21 +265,36 @@ impl Probe {
     }
 }
 
-/// Points with their closest points of a surface.
+/// The secondary side, whose points look at the primary one with the same reach everywhere.
+fn forth(sides: &Sides) -> SurfacePair {
+    let pair = &sides.pair;
+    SurfacePair {
+        secondary: pair.secondary.clone(),
+        wall: pair.wall.clone(),
+        ..SurfacePair::new(pair.points.clone(), pair.primary.clone(), pair.reach)
+    }
+}
+
+/// The primary side, whose points look back; none where one of the two has no facets.
+fn back(sides: &Sides) -> Option<SurfacePair> {
+    let (secondary, primary) = (sides.secondary()?, sides.facets.as_ref()?);
+    let others = Arc::new(secondary.clone());
+    Some(SurfacePair {
+        secondary: Some(primary.clone()),
+        wall: sides.pair.wall.as_ref().map(Wall::swapped),
+        ..SurfacePair::new(primary.all_nodes(), others, sides.pair.reach)
+    })
+}
+
+/// The points of a side with their closest points of the other.
 fn probes(
     points: &PointToSegment,
-    surface: Arc<dyn ContactSurface>,
-    reach: f64,
+    pair: &SurfacePair,
     of_primary: bool,
     at: &Placement,
 ) -> Result<Vec<Probe>, SurfaceError> {
     use crate::contact::discretization::Discretization;
-    let nodes = (0..points.nrow()).flat_map(|row| points.point(row).nodes);
-    let mut nodes: Vec<NodeId> = nodes.copied().collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    let pair = SurfacePair::new(nodes, surface, reach);
-    let found = closest_points(points, &pair, at)?;
+    let found = closest_points(points, pair, at)?;
     let mut jet = SurfaceJet::default();
     let mut probes = Vec::new();
     for (row, found) in found.pairs.iter().enumerate() {

@@ -115,7 +115,7 @@ impl Integrator {
         let covered = &self.covered;
         self.seen.clear();
         // the facets met are in the order of those found
-        let (mut passed, mut first) = (0, 0);
+        let (mut passed, mut first, mut met) = (0, 0, 0);
         for (of, &number) in covered.pairs().iter().zip(covered.met()) {
             let Some(&other) = self.near.get(number) else {
                 continue;
@@ -127,16 +127,21 @@ impl Integrator {
                 .sum::<usize>();
             passed = number;
             let primary = self.others.get(first..).unwrap_or_default();
+            met += 1;
+            let gap = of.mean_way(&self.own, primary).dot(covered.normal());
+            // what is further behind is the other face of the own body
+            if gap < 0.0 && -gap > pair.deepest_between(facet, other, at) {
+                continue;
+            }
             self.seen.push(Seen {
                 facet: other,
                 cosine: of.cosine(),
                 area: of.area(),
-                gap: of.mean_way(&self.own, primary).dot(covered.normal()),
+                gap,
             });
         }
         let whole = covered.full().iter().sum();
         let size = facets.size(at, facet);
-        let met = self.seen.len();
         let part = parts.choose(&mut self.seen, (whole, size), before, &mut self.some);
         if self.seen.len() < met {
             self.near.clear();

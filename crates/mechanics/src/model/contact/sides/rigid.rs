@@ -213,6 +213,7 @@ fn closest_of_surface(
         hint: None,
         on: Closest::Anywhere,
         reach: &|_| f64::INFINITY,
+        deepest: None,
         own: None,
     };
     projected::closest(surface, at, x, &[0], &sight)

@@ -7,10 +7,9 @@ use crate::contact::discretization::nodes::Nowhere;
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
     Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, OwnBody, PointToSegment,
-    SurfacePair, areas_inside, mortar,
+    SurfacePair, Wall, areas_inside, mortar,
 };
 use crate::contact::law::Multiplier;
-use crate::model::contact::joined;
 use crate::model::label::label;
 use crate::model::{
     AreaPart, ContactPart, FeaturesPart, Method, ModelError, Normals, PairOrder, PointKind,
@@ -18,7 +17,7 @@ use crate::model::{
 };
 use crate::system::Idealisation;
 use signorini_geometry::element::{Element, quadrature};
-use signorini_geometry::mesh::{Face, Mesh, NodeId, boundary};
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, boundary};
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
@@ -141,17 +140,20 @@ impl<'a> Pass<'a> {
 
     /// The pair of surfaces of this pass, with a reach that is still to be chosen.
     pub fn into_pair(self) -> SurfacePair {
+        let at = Placement {
+            x: self.source.reference,
+            poses: &[],
+        };
+        let bodies = |facets: &Facets| self.source.bodies.behind(facets);
         let own = self.same.then(|| {
-            let at = Placement {
-                x: self.source.reference,
-                poses: &[],
-            };
-            let of = |facets: &Facets| {
-                let bodies = joined::bodies(self.source.mesh, facets);
-                OwnBody::new(&self.points, facets, &bodies, &at)
-            };
+            let of = |facets: &Facets| OwnBody::new(&self.points, facets, &bodies(facets), &at);
             self.secondary.as_ref().map(of)
         });
+        let is_joined = self.part.tie.is_some();
+        let wall = match (&self.secondary, &self.primary) {
+            (Some(a), Some(b)) if !self.same && !is_joined => self.wall([a, b], &at),
+            _ => None,
+        };
         let primary: Arc<dyn ContactSurface> = match (&self.part.primary, self.primary) {
             (PrimaryPart::Surface(surface), _) => Arc::clone(surface),
             (_, Some(facets)) => Arc::new(facets),
@@ -167,9 +169,32 @@ impl<'a> Pass<'a> {
             sizes: FacetSizes::default(),
             start: Vec::new(),
             own: own.flatten(),
+            wall,
             same: self.same,
             lean: None,
         }
+    }
+
+    /// The body behind two sides of it; none where no body has facets of both.
+    fn wall(&self, [a, b]: [&Facets; 2], at: &Placement) -> Option<Wall> {
+        let bodies = |facets: &Facets| self.source.bodies.behind(facets);
+        let (of_a, of_b) = (bodies(a), bodies(b));
+        let known: BTreeSet<u32> = of_a.iter().copied().collect();
+        if !of_b.iter().any(|body| known.contains(body)) {
+            return None;
+        }
+        let mesh = self.source.mesh;
+        let is_behind = |cell: &CellId| {
+            let body = mesh
+                .cell(*cell)
+                .first()
+                .and_then(|&node| self.source.bodies.of(node));
+            body.is_some_and(|body| known.contains(&body))
+        };
+        let skin = boundary(mesh, mesh.cells(mesh.dim()).filter(is_behind));
+        let skin = Facets::new(mesh, &skin).ok()?;
+        let of_skin = bodies(&skin);
+        Some(Wall::behind([(a, &of_a), (b, &of_b)], (skin, &of_skin), at))
     }
 
     /// A surface that could not be made or sampled.

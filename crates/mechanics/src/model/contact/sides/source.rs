@@ -4,12 +4,15 @@ use crate::model::spaces::Spaces;
 use crate::model::steps::Prescribed;
 use crate::system::{Elimination, Idealisation};
 use signorini_geometry::mesh::Mesh;
+use signorini_geometry::surface::Bodies;
 use signorini_geometry::tensor::Vec3;
 
 /// What sides are made from.
 #[derive(Clone, Copy)]
 pub(in crate::model) struct Source<'a> {
     pub mesh: &'a Mesh,
+    /// What its solid cells are connected to.
+    pub bodies: &'a Bodies,
     /// Positions at the start.
     pub reference: &'a [Vec3],
     pub space: Idealisation,
