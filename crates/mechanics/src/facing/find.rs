@@ -22,6 +22,8 @@ pub struct Facing {
     pub other: u32,
     /// The smallest s of the lines from f that cross q.
     pub gap: f64,
+    /// −n_f·n_q: 1 where they are parallel.
+    pub opposed: f64,
     /// How far both are expected to move relative to one another.
     pub motion: f64,
 }
@@ -196,6 +198,7 @@ impl Finder {
                     facet,
                     other,
                     gap,
+                    opposed: -normal.dot(self.normal_of(other)),
                     motion: self.relative(facet, other),
                 }),
             }
@@ -242,10 +245,15 @@ impl Finder {
         let thickness = |at: usize| self.skin.thickness().get(at).copied().unwrap_or(0.0);
         let size = self.skin.size().get(f).copied().unwrap_or(0.0);
         let reach = size + AHEAD * self.relative(facet, other);
-        let of_other = self.normal.get(q).copied().unwrap_or_default();
+        let of_other = self.normal_of(other);
         let deepest = ENTERED * thickness(f).min(thickness(q));
         let may = self.skin.takes_part(other);
         may && normal.dot(of_other) < -FACES && s >= -deepest.min(reach) && s <= reach
+    }
+
+    /// n_q.
+    fn normal_of(&self, facet: u32) -> Vec3 {
+        self.normal.get(facet as usize).copied().unwrap_or_default()
     }
 
     /// v.

@@ -20,6 +20,8 @@ pub struct Regions {
     of: Vec<u32>,
     /// The facets of each region, sorted.
     facets: Vec<Vec<u32>>,
+    /// Whether each facet is next to another one across a convex edge.
+    ends: Vec<bool>,
 }
 
 /// Two regions whose facets face one another.
@@ -31,6 +33,9 @@ pub struct Meeting {
     pub live: [Vec<u32>; 2],
     /// The least and the largest distance of facets that face one another; negative where they overlap.
     pub gap: [f64; 2],
+    /// Which of the two regions meets the other by an edge or a corner of its own; both do where edges cross, and none where
+    /// facets are parallel to within 30 degrees where they are closest.
+    pub sharp: [bool; 2],
 }
 
 impl Regions {
@@ -38,8 +43,17 @@ impl Regions {
     #[must_use]
     pub fn new(skin: &Skin, x: &[Vec3], kind: impl Fn(u32) -> u32) -> Self {
         let n = skin.facets().nfacet();
-        let normal: Vec<Vec3> = (0..n as u32).map(|f| skin.middle(x, f).1).collect();
-        let normal = |facet: u32| normal.get(facet as usize).copied().unwrap_or_default();
+        let middle: Vec<(Vec3, Vec3)> = (0..n as u32).map(|f| skin.middle(x, f)).collect();
+        let middle = |facet: u32| middle.get(facet as usize).copied().unwrap_or_default();
+        let normal = |facet: u32| middle(facet).1;
+        let ends = (0..n as u32).map(|facet| {
+            let (at, own) = middle(facet);
+            skin.facets().neighbours(facet).iter().any(|&next| {
+                let (there, other) = middle(next);
+                own.dot(other) < SMOOTH && (other - own).dot(there - at) > 0.0
+            })
+        });
+        let ends = ends.collect();
         let mut of = vec![u32::MAX; n];
         let mut facets: Vec<Vec<u32>> = Vec::new();
         for first in 0..n as u32 {
@@ -64,7 +78,7 @@ impl Regions {
             region.sort_unstable();
             facets.push(region);
         }
-        Self { of, facets }
+        Self { of, facets, ends }
     }
 
     /// The facets of a region, sorted.
@@ -97,12 +111,17 @@ impl Regions {
                 true => ([a, b], [one.facet, one.other]),
                 false => ([b, a], [one.other, one.facet]),
             };
-            all.entry(regions).or_default().add(facets, one.gap);
+            let ends = facets.map(|f| self.ends.get(f as usize) == Some(&true));
+            all.entry(regions).or_default().add((facets, ends), one);
         }
         let meeting = |(regions, met): ([u32; 2], Opposed)| Meeting {
             regions,
             live: met.live.map(|side| side.into_iter().collect()),
             gap: met.gap,
+            sharp: match regions[0] != regions[1] && met.opposed < SMOOTH {
+                true => met.ends,
+                false => [false; 2],
+            },
         };
         all.into_iter().map(meeting).collect()
     }
@@ -112,6 +131,9 @@ impl Regions {
 struct Opposed {
     live: [BTreeSet<u32>; 2],
     gap: [f64; 2],
+    /// Of those that are closest: how parallel they are, and whether each is at an edge.
+    opposed: f64,
+    ends: [bool; 2],
 }
 
 impl Default for Opposed {
@@ -119,17 +141,27 @@ impl Default for Opposed {
         Self {
             live: Default::default(),
             gap: [f64::INFINITY, f64::NEG_INFINITY],
+            opposed: 0.0,
+            ends: [false; 2],
         }
     }
 }
 
 impl Opposed {
-    fn add(&mut self, facets: [u32; 2], gap: f64) {
+    fn add(&mut self, (facets, ends): ([u32; 2], [bool; 2]), one: &Facing) {
         for (side, facet) in self.live.iter_mut().zip(facets) {
             side.insert(facet);
         }
         let [least, largest] = self.gap;
-        self.gap = [least.min(gap), largest.max(gap)];
+        if one.gap < least {
+            (self.opposed, self.ends) = (one.opposed, ends);
+        } else if one.gap == least {
+            self.opposed = self.opposed.max(one.opposed);
+            for (end, other) in self.ends.iter_mut().zip(ends) {
+                *end |= other;
+            }
+        }
+        self.gap = [least.min(one.gap), largest.max(one.gap)];
     }
 }
 

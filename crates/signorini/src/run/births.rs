@@ -13,7 +13,7 @@
 use super::cannot_resume;
 use super::start::{Start, begin};
 use crate::setup::Model;
-use crate::setup::general::{Births, General, Pair};
+use crate::setup::general::{Birth, Births, General, Pair};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::checkpoint::{self, ArchiveError};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
@@ -162,7 +162,7 @@ fn places(reference: &[Vec3], frame: &Frame) -> Vec<Vec3> {
 }
 
 /// Builds the model again with contact of more regions, and takes the solution over.
-fn grow(model: &mut Model, births: &[[u32; 2]], from: &Archive) -> Result<Stepper, Diagnostics> {
+fn grow(model: &mut Model, births: &[Birth], from: &Archive) -> Result<Stepper, Diagnostics> {
     let general = model.general.as_ref();
     let pairs = general.map_or_else(Vec::new, |general| general.with(births));
     let mut larger = model.with_pairs(&pairs)?;

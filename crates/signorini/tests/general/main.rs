@@ -9,6 +9,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
 
 mod scene;
+mod shapes;
 
 use scene::Scene;
 use signorini::{Driver, Finished, News, Reading, RunOptions, build, open_text, run, setup::Model};

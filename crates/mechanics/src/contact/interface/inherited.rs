@@ -36,12 +36,12 @@ impl Interface {
     }
 }
 
-/// Arrays of rows: numbers for each, and the place of the number of a facet among these.
-const OF_ROWS: [(&str, usize, Option<usize>); 4] = [
+/// Arrays of rows: numbers for each, and the place of the number of a facet among these. What rows stand for is not among them:
+/// where a side has become larger, there is more around the nodes of its edge.
+const OF_ROWS: [(&str, usize, Option<usize>); 3] = [
     ("pairs", super::history::PAIR, Some(0)),
     ("memory", super::history::MEMORY, Some(0)),
     ("judged", super::history::JUDGED, Some(1)),
-    ("area", 1, None),
 ];
 
 /// Arrays of a contact as a whole.
@@ -185,7 +185,7 @@ mod tests {
         from.put("contact.c.choices", &[4.0]);
         from.put("state.u.multiplier", &[1.0, 2.0, 3.0, 4.0]);
         from.put("state.time", &[0.5]);
-        to.put("contact.c.area", &[0.0; 3]);
+        to.put("contact.c.area", &[3.0, 5.0, 4.0]);
         to.put(
             "contact.c.judged",
             &[0.0, -1.0, 0.0, 0.0, -1.0, 0.0, 0.0, -1.0, 0.0],
@@ -193,7 +193,8 @@ mod tests {
         to.put("contact.c.choices", &[]);
         to.put("state.u.multiplier", &[0.0; 10]);
         inherit((&before, &from), (&[now], &mut to));
-        assert_eq!(to.arrays["contact.c.area"], [0.0, 2.0, 1.0]);
+        // what is around a node depends on the sides
+        assert_eq!(to.arrays["contact.c.area"], [3.0, 5.0, 4.0]);
         let judged = [0.0, -1.0, 0.0, 2.0, 1.0, 5.0, 1.0, 2.0, 0.0];
         assert_eq!(to.arrays["contact.c.judged"], judged);
         assert_eq!(to.arrays["contact.c.choices"], [0.0; 0]);

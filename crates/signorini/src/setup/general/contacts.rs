@@ -1,14 +1,16 @@
 //! From pairs to contacts.
 
-use super::General;
-use super::pair::Pair;
+use super::pair::{Pair, Touch, sorted};
 use super::source::{Side, Wall, has};
+use super::{Birth, General};
 use crate::setup::names::Names;
 use signorini_geometry::mesh::Face;
 use signorini_geometry::surface::ContactSurface;
-use signorini_io::case::{self, ANY, Case, Contact, Excluded, Found, Method, Name, SELF};
+use signorini_io::case::{
+    self, ANY, Case, Contact, Enforcement, Excluded, Features, Found, Method, Name, SELF,
+};
 use signorini_io::diagnostic::Spanned;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A contact with the names and faces of its sides.
 struct FoundContact {
@@ -24,15 +26,17 @@ impl General {
 
     /// The pairs with regions that meet from now on. A region that is next to a side of a pair, and meets its other side,
     /// becomes a part of that side: nodes near the edge between the two have one row, and it is that of the better facet.
-    pub fn with(&self, births: &[[u32; 2]]) -> Vec<Pair> {
+    /// Bodies that meet by faces anywhere do so everywhere: only where edges and corners alone meet are they points.
+    pub fn with(&self, births: &[Birth]) -> Vec<Pair> {
         let mut pairs = self.pairs.clone();
-        for &[a, b] in births {
+        for birth in births {
+            let [a, b] = birth.regions;
             let is_fold = a == b;
             let fits = |side: &[u32], region: u32| {
                 side.contains(&region) || side.iter().any(|one| self.are_next(*one, region))
             };
             let joins = |pair: &Pair| {
-                let [secondary, primary] = &pair.0;
+                let [secondary, primary] = &pair.sides;
                 let is_in = |a: &u32, b: &u32| secondary.contains(a) || primary.contains(b);
                 let in_order = is_in(&a, &b) && fits(secondary, a) && fits(primary, b);
                 let turned = is_in(&b, &a) && fits(secondary, b) && fits(primary, a);
@@ -50,14 +54,37 @@ impl General {
             };
             let found = pairs.iter_mut().find_map(|pair| Some((joins(pair)?, pair)));
             match found {
-                None => pairs.push(Pair([vec![a], vec![b]])),
+                None => pairs.push(Pair {
+                    sides: [vec![a], vec![b]],
+                    touch: birth.touch,
+                }),
                 Some((regions, pair)) => {
-                    for (side, region) in pair.0.iter_mut().zip(regions) {
+                    if pair.touch != Touch::Faces && birth.touch != Touch::Faces {
+                        let is_turned = regions != birth.regions;
+                        pair.touch = match is_turned {
+                            true => Touch::Edges,
+                            false => pair.touch.max(birth.touch),
+                        };
+                    }
+                    for (side, region) in pair.sides.iter_mut().zip(regions) {
                         if let Err(at) = side.binary_search(&region) {
                             side.insert(at, region);
                         }
                     }
                 }
+            }
+        }
+        let bodies = |[a, b]: [u32; 2]| sorted([self.label(a), self.label(b)]);
+        let met = births
+            .iter()
+            .filter(|birth| birth.touch == Touch::Faces)
+            .map(|birth| birth.regions);
+        let known = self.pairs.iter().filter(|pair| pair.touch == Touch::Faces);
+        let by_faces = met.chain(known.map(Pair::first)).map(bodies);
+        let by_faces: BTreeSet<[u32; 2]> = by_faces.collect();
+        for pair in &mut pairs {
+            if by_faces.contains(&bodies(pair.first())) {
+                pair.touch = Touch::Faces;
             }
         }
         pairs
@@ -133,10 +160,7 @@ impl General {
     fn contacts(&self) -> Vec<FoundContact> {
         let mut count: BTreeMap<String, usize> = BTreeMap::new();
         let contact = |pair: &Pair| {
-            let [a, b] = pair
-                .0
-                .each_ref()
-                .map(|side| side.first().copied().unwrap_or(u32::MAX));
+            let [a, b] = pair.first();
             let (name, in_order) = self.name([a, b]);
             let number = count.entry(name.clone()).or_insert(0);
             *number += 1;
@@ -205,11 +229,11 @@ impl General {
 
     fn contact(&self, pair: &Pair, name: &str, found: Found) -> FoundContact {
         let facets = self.finder.skin().facets();
-        let first = pair
-            .0
-            .each_ref()
-            .map(|side| side.first().copied().unwrap_or(u32::MAX));
+        let first = pair.first();
         let mut contact = self.with_settings(|own| self.is_between(own, first).is_some());
+        if pair.touch != Touch::Faces {
+            by_points(&mut contact, pair.touch);
+        }
         let side = |regions: &Vec<u32>| {
             let label = regions
                 .first()
@@ -222,7 +246,7 @@ impl General {
             let faces = faces.filter_map(|&facet| facets.face(facet)).collect();
             (format!("{label}/{}", numbers.join("+")), faces)
         };
-        let [secondary, primary] = pair.0.each_ref().map(side);
+        let [secondary, primary] = pair.sides.each_ref().map(side);
         let named = |name: &str| Spanned::new(name.to_owned(), contact.place.clone());
         let is_fold = secondary.0 == primary.0;
         let sides = [
@@ -249,5 +273,20 @@ impl General {
         } else {
             (is(one, b) && is(other, a)).then_some(false)
         }
+    }
+}
+
+/// Lets nodes of the side with the edges rest on faces and edges of the other, and of both where both have them, unless the case
+/// names a method: an edge or a corner between the nodes of the other side is not felt by means over its facets. Multipliers are
+/// for the nodes of one side alone.
+fn by_points(contact: &mut Contact, touch: Touch) {
+    if *contact.method == Method::Auto {
+        contact.method = Method::NodeToSegment.into();
+        contact.features = Features::Edges;
+        let by_penalty = matches!(
+            contact.enforcement,
+            Enforcement::Auto | Enforcement::Penalty(_)
+        );
+        contact.two_pass = by_penalty && touch == Touch::Edges;
     }
 }

@@ -17,7 +17,7 @@ pub(crate) use pair::Pair;
 pub(super) use source::Source;
 
 use super::origin::Origin;
-use pair::sorted;
+use pair::{Touch, sorted};
 use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, ANY, Excluded, Name};
@@ -59,10 +59,19 @@ pub(crate) struct General {
 /// What a look at a way of all nodes finds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Births {
-    /// Regions that meet and did not before, the one that would be secondary first.
-    pub pairs: Vec<[u32; 2]>,
+    /// What meets and did not before: first faces, then edges and corners.
+    pub pairs: Vec<Birth>,
     /// Whether some of these are inside one another already.
     pub is_inside: bool,
+}
+
+/// Two regions that meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Birth {
+    /// The one that would be secondary first.
+    pub regions: [u32; 2],
+    /// By what.
+    pub touch: Touch,
 }
 
 impl General {
@@ -140,7 +149,7 @@ impl General {
     pub fn take(&mut self, pairs: &[Pair]) -> bool {
         let is_known = |region: &u32| (*region as usize) < self.regions.count();
         self.pairs = pairs.to_vec();
-        let mut sides = pairs.iter().flat_map(|pair| &pair.0);
+        let mut sides = pairs.iter().flat_map(|pair| &pair.sides);
         sides.all(|side| !side.is_empty() && side.iter().all(is_known))
     }
 
@@ -150,7 +159,7 @@ impl General {
         let way: Vec<Vec3> = to.iter().zip(from).map(|(to, from)| *to - *from).collect();
         let nlook = self.nlook(&way);
         let of_pair = |pair: &Pair| -> Vec<[u32; 2]> {
-            let [one, other] = &pair.0;
+            let [one, other] = &pair.sides;
             pairs_of(one, other)
                 .map(|(a, b)| sorted([*a, *b]))
                 .collect()
@@ -178,12 +187,34 @@ impl General {
         let mut births: Vec<Meeting> = births.into_values().collect();
         births.sort_by_key(|met| {
             let labels = sorted(met.regions.map(|region| self.label(region)));
-            (labels, met.regions)
+            (met.sharp != [false; 2], labels, met.regions)
         });
         Births {
             is_inside: births.iter().any(|met| met.gap[0] < 0.0),
-            pairs: births.iter().map(|met| self.with_roles(to, met)).collect(),
+            pairs: births.iter().map(|met| self.birth(to, met)).collect(),
         }
+    }
+
+    /// What meets, where nodes are at `x`. Nodes of edges are secondary, whatever else would decide.
+    fn birth(&self, x: &[Vec3], met: &Meeting) -> Birth {
+        let [a, b] = met.regions;
+        let regions = self.with_roles(x, met);
+        let is_named = |own: &case::GeneralPair| {
+            own.secondary.is_some() && self.is_between(own, met.regions).is_some()
+        };
+        let edge = match met.sharp {
+            [true, false] => Some([a, b]),
+            [false, true] => Some([b, a]),
+            _ => None,
+        };
+        let (regions, touch) = match edge {
+            _ if met.sharp == [false; 2] => (regions, Touch::Faces),
+            Some(edge) if edge == regions || !self.settings.pairs.iter().any(is_named) => {
+                (edge, Touch::Edge)
+            }
+            _ => (regions, Touch::Edges),
+        };
+        Birth { regions, touch }
     }
 
     /// A pair with the secondary region first, where nodes are at `x`: that which the case says, or by the standing of the
