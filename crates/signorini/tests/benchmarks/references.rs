@@ -55,7 +55,7 @@ fn bar(ndim: usize, motion: &str) -> String {
          [sets]\nfirst = {{ nodes = {first:?} }}\nlast = {{ nodes = {last:?} }}\n\
          [material.m]\nmodel = \"linear-elastic\"\nE = 1000.0\nnu = 0.0\n[[body]]\ngroup = \"bar\"\nmaterial = \"m\"\n\
          [reference.pilot]\nat = {at:?}\n[[constraint]]\nkind = \"kinematic\"\non = \"last\"\nreference = \"pilot\"\n\
-         [[output.history]]\nname = \"wall\"\nnode = \"first\"\nquantity = \"reaction_force.x\"\n\
+         [[output.history]]\nname = \"wall\"\nset = \"first\"\nquantity = \"reaction_force.x\"\n\
          [[step]]\nname = \"s\"\ngeometry = \"linear\"\nincrements = 1\nfix = [{{ on = \"first\", u = \"all\" }}]\n\
          [[step.move]]\non = \"pilot\"\n{motion}\n"
     )

@@ -78,8 +78,9 @@ const BY_POINTS: &str = "[[contact]]\nname = \"named\"\nsecondary = \"lower\"\np
 fn corners_and_edges_are_felt_wherever_they_are_between_the_nodes_of_the_other_side() {
     for on_corner in [true, false] {
         for (n, m) in [(1, 9), (2, 8), (4, 5), (6, 3)] {
-            // the way to the plate is gone in other increments, and friction depends on the way
-            for (gap, friction) in [(0.01, 0.2), (0.7, 0.0)] {
+            // from afar, faces of smaller facets join one increment after the other: that is not the same
+            let afar = (n <= 2).then_some([(0.7, 0.0), (0.7, 0.2)]);
+            for (gap, friction) in [(0.01, 0.2)].into_iter().chain(afar.into_iter().flatten()) {
                 let place = format!("corner {on_corner}, {n} on {m}, {gap}");
                 let all = format!("[[contact]]\nall = true\nfriction = {friction}\n");
                 let (found, model, _) = solve(&on_edge(n, m, on_corner, gap, &all), |_| {});
@@ -90,12 +91,12 @@ fn corners_and_edges_are_felt_wherever_they_are_between_the_nodes_of_the_other_s
                 );
                 assert!(model.contacts.iter().all(|one| one.is_found));
                 let by_name = format!("{BY_POINTS}friction = {friction}\n");
-                let (right, ..) = solve(&on_edge(n, m, on_corner, 0.01, &by_name), |_| {});
+                let (right, ..) = solve(&on_edge(n, m, on_corner, gap, &by_name), |_| {});
                 let right = carried(&right, "named");
                 assert!(right[2] > 1.0, "{place}: {right:?}");
                 let mut got = carried(&found, "plate-cube");
                 got[..3].iter_mut().for_each(|force| *force = -*force);
-                close(got, right, if gap > 0.1 { 1e-5 } else { 1e-9 });
+                close(got, right, 1e-7);
             }
         }
     }
