@@ -83,8 +83,8 @@ fn solve(text: &str) -> BTreeMap<String, f64> {
 
 #[test]
 fn a_reference_is_held_by_what_balances_the_body() {
-    for ndim in [2, 3] {
-        let row = solve(&bar(ndim, "ux = 0.02"));
+    for (ndim, held) in [(2, "uy = 0"), (3, "uy = 0\nuz = 0\nrx = 0\nry = 0")] {
+        let row = solve(&bar(ndim, &format!("ux = 0.02\nrz = 0\n{held}")));
         let axial = 1000.0 * 0.02 / 4.0;
         let close = |name: &str, right: f64| {
             let got = row[name];
@@ -101,7 +101,7 @@ fn a_reference_is_held_by_what_balances_the_body() {
         // nothing touches
         close("pilot.force_x", 0.0);
         // turned about the reference: a constant curvature and a shear that its place makes
-        let row = solve(&bar(ndim, "rz = 0.01"));
+        let row = solve(&bar(ndim, &format!("ux = 0\nrz = 0.01\n{held}")));
         assert!(row["pilot.reaction_moment_z"] > 0.0);
         let axial = row["pilot.reaction_force_x"];
         let wall = row["wall.reaction_force.x"];
