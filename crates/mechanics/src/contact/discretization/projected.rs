@@ -45,7 +45,7 @@
 //! rests on the continuation of a facet that meets there, the one it had before where there is one ([`Closest::Faces`]).
 //!
 //! Limits: `w = 0` on an edge or vertex has no normal and counts as open; a node that lies deeper in the body than
-//! half its thickness is pushed out at the wrong side, unless a surface touches itself, where it meets nothing there. Sources: Wriggers 2006, section 6.3; Konyukhov and
+//! half its thickness is pushed out at the wrong side, unless it is of the same body, where it meets nothing there. Sources: Wriggers 2006, section 6.3; Konyukhov and
 //! Schweizerhof 2013, chapter 5; Wriggers and Krstulović-Opara 2000 (E7).
 
 pub use super::point::Point;

@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-9;
 /// Where the body behind each facet of two sides ends.
 #[derive(Clone, Debug)]
 pub struct Wall {
-    /// The outer faces of the mesh.
+    /// The outer faces of these bodies.
     skin: Facets,
     /// From each facet of the secondary side and of the primary side, a place on the skin.
     ends: [Vec<Option<Anchor>>; 2],
@@ -64,7 +64,7 @@ impl Around {
 }
 
 impl Wall {
-    /// That behind a secondary and a primary side in their reference configuration; the skin is that of all bodies, and each of
+    /// That behind a secondary and a primary side in their reference configuration; the skin is that of their bodies, and each of
     /// the three has the number of the body behind each facet.
     #[must_use]
     pub fn behind(sides: [(&Facets, &[u32]); 2], skin: (Facets, &[u32]), at: &Placement) -> Self {
