@@ -1,7 +1,7 @@
 //! Gaps point by point (A1, A2).
 
 use super::closest::{Finder, Met, Seeker};
-use super::support::{Support, turn};
+use super::support::{Edge, Support, turn};
 use super::{Rules, Sides, nothing, worst};
 use crate::system::Measured;
 use rayon::prelude::*;
@@ -19,6 +19,8 @@ const SLACK: f64 = 1.5;
 const APART: f64 = 0.01;
 /// Points along the edge of a grid on a facet.
 const GRID: usize = 9;
+/// Where points inside an edge are looked from.
+const IN_EDGE: [f64; 3] = [0.25, 0.5, 0.75];
 /// Points looked for by one task.
 const TASK: usize = 32;
 
@@ -28,6 +30,8 @@ pub struct Seen {
     pub nodes: Vec<Option<Met>>,
     /// The smallest gap that a corner of the primary side has above each facet; ∞ where there is none.
     pub corners: Vec<f64>,
+    /// The gaps of points inside the secondary side's edges that are in the other side, each with the node at its end.
+    pub edges: Vec<(usize, f64)>,
     /// How far facets of the primary side are from the curve that they stand for, sorted by facet.
     pub bends: Vec<(u32, Bend)>,
 }
@@ -75,6 +79,11 @@ pub fn look(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) -> Seen
     Seen {
         nodes,
         corners,
+        edges: if sides.same {
+            Vec::new()
+        } else {
+            from_edges(support, (sides, rules), &finder)
+        },
         bends,
     }
 }
@@ -98,6 +107,7 @@ fn from_partners(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) ->
     Seen {
         nodes: (0..of.nodes.len()).map(look).collect(),
         corners: vec![f64::INFINITY; support.facets.len()],
+        edges: Vec::new(),
         bends: Vec::new(),
     }
 }
@@ -129,6 +139,40 @@ fn from_nodes(
     };
     let all = (0..of.nodes.len()).into_par_iter().with_min_len(TASK);
     all.map(look).collect()
+}
+
+/// Looks from points inside edges where facets of the secondary side do not go on smoothly: two such edges may cross, with
+/// all corners outside.
+fn from_edges(
+    support: &Support<'_>,
+    (sides, rules): (&Sides<'_>, &dyn Rules),
+    finder: &Finder<'_>,
+) -> Vec<(usize, f64)> {
+    let id = |k: u32| support.of.nodes.get(k as usize).copied();
+    let look = |edge: &Edge| {
+        let [first, last] = edge.ends;
+        let [a, b] = [id(first)?, id(last)?].map(|node| seeker(node, edge.normal, sides));
+        let (a, b) = (a?, b?);
+        let within = (b.point - a.point).norm();
+        let gaps = IN_EDGE.iter().filter_map(|&part| {
+            let between = |a: Vec3, b: Vec3| a * (1.0 - part) + b * part;
+            let met = finder.find(&Seeker {
+                point: between(a.point, b.point),
+                moved: between(a.moved, b.moved),
+                within,
+                ..a
+            })?;
+            (met.gap < 0.0 && -met.gap <= rules.deepest(id(first)?, met.facet)).then_some(met.gap)
+        });
+        let least = gaps.fold(0.0, f64::min);
+        (least < 0.0).then_some((first as usize, least))
+    };
+    let edges = support.edges();
+    edges
+        .par_iter()
+        .with_min_len(TASK)
+        .filter_map(look)
+        .collect()
 }
 
 /// Whether a node was behind a facet at the start.
@@ -424,6 +468,9 @@ pub fn through(support: &Support<'_>, rules: &dyn Rules, seen: &Seen) -> Measure
         {
             judge(k as usize, gap, pressure(k as usize));
         }
+    }
+    for &(k, gap) in &seen.edges {
+        judge(k, gap, pressure(k));
     }
     measured.nodes = worst(of, found);
     measured

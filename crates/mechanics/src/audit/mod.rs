@@ -36,6 +36,8 @@
 //! not cause alarm. Where a method holds the geometry of the start, `g = g₀ + ν₀·(u_s − u_p)` at the closest points of the
 //! start is judged ([`Sides::start`]).
 //!
+//! (A2) takes points inside edges, too, where facets meet at an angle or end: edges that cross have no corner inside.
+//!
 //! Limits: (A1) in space takes corners and, where these are apart, a grid of points on each facet, so that two edges that
 //! cross are seen to a part of a facet; in the plane it is exact for straight facets. Joints are checked by (A4) alone. Of a
 //! surface that may touch itself, corners of the other side are left out, and so is depth that was there at the start. A side

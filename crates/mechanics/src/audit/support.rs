@@ -40,6 +40,15 @@ pub struct OfNode {
     pub count: u32,
 }
 
+/// An edge of the secondary side where its facets end or do not go on smoothly.
+#[derive(Clone, Copy, Debug)]
+pub struct Edge {
+    /// Its corners, by their places among the nodes.
+    pub ends: [u32; 2],
+    /// The sum of the normals of its facets.
+    pub normal: Vec3,
+}
+
 /// The facets around the nodes under pressure, with their data.
 pub struct Support<'a> {
     pub of: &'a ContactFrame,
@@ -113,6 +122,31 @@ impl<'a> Support<'a> {
             (Some(&a), Some(&b)) => self.around.get(a as usize..b as usize).unwrap_or(&[]),
             _ => &[],
         }
+    }
+
+    /// The edges between corners where facets end, or met at more than 30° at the start; none in the plane.
+    pub fn edges(&self) -> Vec<Edge> {
+        let mut sides: Vec<([u32; 2], usize)> = Vec::new();
+        for (f, (element, nodes)) in self.of.facets.iter().enumerate() {
+            let corners = nodes.get(..element.ncorner()).unwrap_or(nodes);
+            if element.dim() == 2 {
+                let next = corners.iter().cycle().skip(1);
+                let ends = corners.iter().zip(next);
+                sides.extend(ends.map(|(&a, &b)| ([a.min(b), a.max(b)], f)));
+            }
+        }
+        sides.sort_unstable();
+        let edge = |of: &[([u32; 2], usize)]| {
+            let facet = |side: &([u32; 2], usize)| self.facets.get(side.1);
+            let (first, last) = (of.first()?, of.last()?);
+            let turned = facet(first)?.before.dot(facet(last)?.before);
+            (of.len() == 1 || turned < SMOOTH).then(|| Edge {
+                ends: first.0,
+                normal: of.iter().filter_map(facet).map(|f| f.normal).sum(),
+            })
+        };
+        let of_edges = sides.chunk_by(|a, b| a.0 == b.0);
+        of_edges.filter_map(edge).collect()
     }
 
     /// The traction on a node.

@@ -112,6 +112,80 @@ fn a_corner_that_means_do_not_feel_causes_a_warning() {
     assert!(said.contains("warning[S0422]"), "{said}");
 }
 
+/// Two bars of square section that meet by an edge of each, at an angle, both nodes of the edges away from where they cross.
+fn crossing(angle: f64, elements: usize, down: f64, contact: &str) -> String {
+    let s = FRAC_1_SQRT_2;
+    let (cos, sin) = (angle.cos(), angle.sin());
+    let mut scene = Scene::new(3);
+    let on_edge = |[u, v, w]: [f64; 3]| [3.0 * u - 1.5, (v - w) * s, (v + w) * s];
+    let lower = scene.bent("lower", [elements, 2, 2], |at| {
+        let [x, y, z] = on_edge(at);
+        [x, y, z - 2.0 * s]
+    });
+    let upper = scene.bent("upper", [elements + 2, 2, 2], |at| {
+        let [x, y, z] = on_edge(at);
+        [0.02 + x * cos - y * sin, 0.03 + x * sin + y * cos, z + 0.01]
+    });
+    let faces = |sides: &[(String, Vec<String>)], names: [&str; 2]| {
+        let of = |name: &str| {
+            let side = sides.iter().find(|side| side.0.ends_with(name));
+            by_number(&side.unwrap().1.join(", "))
+        };
+        names.map(of).join(", ")
+    };
+    let sets = [
+        ("base", faces(&lower, ["-y", "-z"])),
+        ("under", faces(&lower, ["+y", "+z"])),
+        ("over", faces(&upper, ["-y", "-z"])),
+        ("head", faces(&upper, ["+y", "+z"])),
+    ];
+    let rest = format!(
+        "{contact}\n[[step]]\nname = \"push\"\nincrements = 10\n\
+         fix = [{{ on = \"base\", u = \"all\" }}]\n\
+         move = [{{ on = \"head\", ux = 0.0, uy = 0.0, uz = {} }}]\n",
+        -0.01 - down
+    );
+    let named = sets.map(|(name, faces)| format!("{name} = {{ faces = [{faces}] }}\n"));
+    let sets = format!("[sets]\n{}", named.concat());
+    scene.case(&rest).replacen("[sets]\n", &sets, 1)
+}
+
+/// Nodes do not feel edges that cross between them: the result says so, whichever side is which.
+#[test]
+fn edges_that_cross_with_no_node_inside_cause_a_warning() {
+    let by_name = |secondary: &str, primary: &str, method: &str| {
+        format!(
+            "[[contact]]\nname = \"named\"\nsecondary = \"{secondary}\"\nprimary = \"{primary}\"\nmethod = \"{method}\"\n"
+        )
+    };
+    let contacts = [
+        "[[contact]]\nall = true\n".to_owned(),
+        by_name("over", "under", "node-to-segment"),
+        by_name("under", "over", "node-to-segment"),
+    ];
+    let mut inside_said = 0;
+    for angle in [TAU / 4.0, TAU / 6.0] {
+        for elements in [3, 5] {
+            for contact in &contacts {
+                let place = format!("{angle}, {elements}, {contact}");
+                let (apart, ..) = solve(&crossing(angle, elements, -0.005, contact), |_| {});
+                let said = apart.diagnostics.plain();
+                assert!(!said.contains("S0422"), "{place}\n{said}");
+                let (inside, ..) = solve(&crossing(angle, elements, 0.15, contact), |_| {});
+                let said = inside.diagnostics.plain();
+                // where nodes are inside, they push aside, too
+                let doubted = ["S0422", "S0423"].map(|code| said.contains(code));
+                assert!(
+                    inside.exit_code != 0 || doubted.contains(&true),
+                    "{place}\n{said}"
+                );
+                inside_said += usize::from(doubted[0]);
+            }
+        }
+    }
+    assert!(inside_said >= 6, "{inside_said}");
+}
+
 /// A strip of square section that is wound in two turns and a half, which come closer from turn to turn, its end pushed down
 /// by `down`. It is thinner than a facet is long, and the turns are closer than it is thick.
 fn wound(down: f64, contact: &str) -> String {
