@@ -65,6 +65,7 @@ impl ReferenceElement for Line3 {
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
             surface: &quadrature::LINE_3,
+            mass: &quadrature::LINE_3,
             ..Rules::all(&quadrature::LINE_2)
         };
         RULES

@@ -174,6 +174,7 @@ impl ReferenceElement for Line4 {
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
             surface: &LINE_4,
+            mass: &LINE_4,
             ..Rules::all(&quadrature::LINE_3)
         };
         RULES
@@ -248,6 +249,7 @@ impl ReferenceElement for Tri10 {
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
             surface: &quadrature::TRI_12,
+            mass: &quadrature::TRI_12,
             ..Rules::all(&quadrature::TRI_6)
         };
         RULES

@@ -432,6 +432,15 @@ fn surface_rule_integrates_products_of_two_shape_functions() {
     }
 }
 
+#[test]
+fn mass_rule_integrates_products_of_two_shape_functions() {
+    for e in all() {
+        let [single, double] = defects(e, e.rules().mass, |xi| shape(e, xi));
+        assert_near(e, "∫N_i", single, 0.0, 1e-13);
+        assert_near(e, "∫N_i N_j", double, 0.0, 1e-13);
+    }
+}
+
 /// The rank of the matrix with these rows, by elimination with the largest pivot.
 fn rank(mut rows: Vec<Vec<f64>>) -> usize {
     let n = rows[0].len();

@@ -71,6 +71,7 @@ impl ReferenceElement for Tet10 {
 
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
+            mass: &quadrature::TET_14,
             dilatation: &quadrature::TET_14,
             ..Rules::all(&quadrature::TET_4)
         };

@@ -61,6 +61,7 @@ impl ReferenceElement for Tet4 {
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
             surface: &quadrature::TET_4,
+            mass: &quadrature::TET_4,
             ..Rules::all(&quadrature::TET_1)
         };
         RULES

@@ -59,6 +59,7 @@ impl ReferenceElement for Tri3 {
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
             surface: &quadrature::TRI_3,
+            mass: &quadrature::TRI_3,
             revolved: &quadrature::TRI_3,
             ..Rules::all(&quadrature::TRI_1)
         };

@@ -74,6 +74,7 @@ impl ReferenceElement for Tri6 {
     fn rules(&self) -> Rules {
         const RULES: Rules = Rules {
             surface: &quadrature::TRI_6,
+            mass: &quadrature::TRI_6,
             revolved: &quadrature::TRI_6,
             ..Rules::all(&quadrature::TRI_3)
         };

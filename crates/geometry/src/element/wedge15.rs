@@ -95,7 +95,11 @@ impl ReferenceElement for Wedge15 {
     }
 
     fn rules(&self) -> Rules {
-        Rules::all(&quadrature::WEDGE_9)
+        const RULES: Rules = Rules {
+            mass: &quadrature::WEDGE_18,
+            ..Rules::all(&quadrature::WEDGE_9)
+        };
+        RULES
     }
 }
 

@@ -70,6 +70,18 @@ impl Mat3 {
         Self::IDENTITY + k * a + k * k * b
     }
 
+    /// The rotation vector of a rotation by less than half a turn: [`Mat3::rotation`] gives it back.
+    #[must_use]
+    pub fn rotation_vector(self) -> Vec3 {
+        let [a, b, c] = self.rows;
+        let sine = Vec3::new(c.y - b.z, a.z - c.x, b.x - a.y) * 0.5;
+        let (size, cosine) = (sine.norm(), 0.5 * (a.x + b.y + c.z - 1.0));
+        if size < 1e-8 {
+            return sine;
+        }
+        sine * (size.atan2(cosine) / size)
+    }
+
     /// The transpose.
     #[inline]
     #[must_use]
@@ -213,6 +225,15 @@ mod tests {
     fn skew_is_the_vector_product() {
         let (a, b) = (Vec3::new(1.0, -2.0, 3.0), Vec3::new(0.5, 0.25, -4.0));
         assert_eq!(Mat3::skew(a) * b, a.cross(b));
+    }
+
+    #[test]
+    fn rotation_vectors_are_those_of_their_rotations() {
+        for angle in [0.0, 1e-12, 1e-9, 1e-7, 1e-3, 1.0, 3.0] {
+            let vector = Vec3::new(0.6, 0.0, -0.8) * angle;
+            let back = Mat3::rotation(vector).rotation_vector();
+            assert!((back - vector).norm() < 1e-14, "{angle}: {back:?}");
+        }
     }
 
     #[test]

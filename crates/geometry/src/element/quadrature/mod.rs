@@ -12,6 +12,7 @@
 //! | [`TET_14`] | 14, inside | 5 |
 //! | [`WEDGE_6`] | [`TRI_3`] × [`LINE_2`] | 2 in the triangle, 3 along the axis |
 //! | [`WEDGE_9`] | [`TRI_3`] × [`LINE_3`] | 2 in the triangle, 5 along the axis |
+//! | [`WEDGE_18`] | [`TRI_6`] × [`LINE_3`] | 4 in the triangle, 5 along the axis |
 //!
 //! For facets there are rules with any number of points, too: [`gauss`], [`lobatto`], [`on_facet`], and those of a wanted
 //! degree: [`of_degree`].
@@ -68,9 +69,11 @@ pub struct Rules {
     pub full: &'static Rule,
     /// Reduced integration: one order less in the serendipity elements, the full rule in all others.
     pub reduced: &'static Rule,
-    /// Integrates loads and areas over the element as a facet, curved or not, and masses over a solid: exact for products
+    /// Integrates loads and areas over the element as a facet, curved or not, and weights over a solid: exact for products
     /// of two shape functions on an undistorted facet.
     pub surface: &'static Rule,
+    /// Integrates mass matrices: exact for products of two shape functions on the undistorted element.
+    pub mass: &'static Rule,
     /// For bodies of revolution, where the hoop is a strain of its own: with fewer points motions would be free.
     pub revolved: &'static Rule,
     /// Where the dilatation is projected and counts only once: with fewer points motions would be free.
@@ -87,6 +90,7 @@ impl Rules {
             full: rule,
             reduced: rule,
             surface: rule,
+            mass: rule,
             revolved: rule,
             dilatation: rule,
             raised: None,
@@ -356,6 +360,12 @@ pub static WEDGE_6: Rule = Rule {
 pub static WEDGE_9: Rule = Rule {
     points: &product_points::<3, 3, 9>(TRI_3.points, &GAUSS_3.0, 2),
     weights: &product_weights::<3, 3, 9>(TRI_3.weights, &GAUSS_3.1),
+};
+
+/// Six points of the triangle times three along the axis.
+pub static WEDGE_18: Rule = Rule {
+    points: &product_points::<6, 3, 18>(TRI_6.points, &GAUSS_3.0, 2),
+    weights: &product_weights::<6, 3, 18>(TRI_6.weights, &GAUSS_3.1),
 };
 
 const fn along_line<const N: usize>(s: &[f64; N]) -> [Vec3; N] {
