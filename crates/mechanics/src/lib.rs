@@ -1,7 +1,7 @@
 //! Everything between a mesh and a result: unknowns, materials, solids, loads, contact, solution.
 //!
 //! ```text
-//! system ◀── solid, load, contact, connector ◀── model          solve ──▶ system
+//! system ◀── solid, load, inertia, contact, connector ◀── model          solve ──▶ system
 //! ```
 //!
 //! `solve` knows nothing of solids or contact: all it sees is [`system::Term`]. `material` and `contact::law` have never
@@ -14,6 +14,7 @@ pub mod contact;
 #[path = "../../geometry/src/element/testing.rs"]
 mod cubic;
 pub mod facing;
+pub mod inertia;
 pub mod load;
 pub mod material;
 pub mod model;

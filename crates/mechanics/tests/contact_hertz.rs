@@ -132,6 +132,7 @@ fn pressed(facets: f64, element: &str, sliding: SlidingRange) -> ContactFrame {
         duration: 1.0,
         increments: Increments::Fixed(1),
         nonlinear: false,
+        scheme: None,
         changes,
         loads: vec![load],
         contacts: Vec::new(),

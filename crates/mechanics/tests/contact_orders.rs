@@ -248,6 +248,7 @@ impl Solution {
                 material: Box::new(SaintVenantKirchhoff::new(MODULUS, POISSON)),
                 later: Vec::new(),
                 density: None,
+                mass: Default::default(),
                 integration: Integration::Full,
                 locking: Locking::None,
                 space: None,
@@ -276,6 +277,7 @@ impl Solution {
                 duration: 1.0,
                 increments: Increments::Fixed(1),
                 nonlinear: false,
+                scheme: None,
                 changes,
                 loads: vec![LoadPart {
                     name: "pressure".into(),

@@ -105,6 +105,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 material: Box::new(material),
                 later: Vec::new(),
                 density: None,
+                mass: Default::default(),
                 integration: Integration::Full,
                 locking,
                 space: None,
@@ -125,6 +126,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 count_max: 100,
             },
             nonlinear,
+            scheme: None,
             changes,
             loads: vec![LoadPart {
                 name: "shear".into(),

@@ -171,6 +171,7 @@ fn steps(s: &Situation, mesh: &Mesh, low: &Part, high: &Part) -> Vec<StepPart> {
         duration: 1.0,
         increments: increments(n),
         nonlinear: true,
+        scheme: None,
         changes,
         loads,
         contacts: Vec::new(),

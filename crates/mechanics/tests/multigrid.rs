@@ -174,6 +174,7 @@ fn model_of(s: &Situation) -> Model {
             duration: 1.0,
             increments: Increments::Fixed(2),
             nonlinear: s.nonlinear,
+            scheme: None,
             changes,
             loads: vec![LoadPart {
                 name: "weight".into(),

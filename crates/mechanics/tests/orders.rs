@@ -166,6 +166,7 @@ fn solution(
                 material: Box::new(SaintVenantKirchhoff::new(field.e, field.nu)),
                 later: Vec::new(),
                 density: None,
+                mass: Default::default(),
                 integration: choice.integration,
                 locking: choice.locking,
                 space: None,
@@ -181,6 +182,7 @@ fn solution(
             duration: 1.0,
             increments: Increments::Fixed(1),
             nonlinear: false,
+            scheme: None,
             changes: boundary.iter().map(prescribe).collect(),
             loads: vec![LoadPart {
                 name: "body force".into(),

@@ -181,6 +181,7 @@ impl Block {
                 duration: 1.0,
                 increments: Increments::Fixed(1),
                 nonlinear: false,
+                scheme: None,
                 changes,
                 loads,
                 contacts: Vec::new(),

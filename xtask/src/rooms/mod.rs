@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 44] = [
+const ROOMS: [Room; 45] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -84,6 +84,7 @@ const ROOMS: [Room; 44] = [
     room("mechanics::connector", &["mechanics::system", "geometry"]),
     room("mechanics::audit", &["mechanics::system", "geometry"]),
     room("mechanics::facing", &["geometry"]),
+    room("mechanics::inertia", &["mechanics::system", "geometry"]),
     room(
         "mechanics::contact",
         &["mechanics::system", "mechanics::audit", "geometry"],

@@ -204,6 +204,7 @@ impl Translation<'_> {
             at_nodes: AtNodes::default(),
             area: None,
             small_strain: false,
+            mass_matrix: Default::default(),
             rigid: true,
             reference: Some(reference),
             place: place.clone(),

@@ -365,6 +365,7 @@ fn case_of(of: Properties) -> Option<Material> {
             .collect(),
         own: None,
         density: of.density,
+        damping: 0.0,
         expansion: of.expansion,
         plasticity: of.plasticity,
         place: of.place,

@@ -40,6 +40,7 @@ impl Section<'_> {
             temperatures: Temperatures::Full,
             area: None,
             small_strain: false,
+            mass_matrix: Default::default(),
             rigid: false,
             reference: None,
             place: place.clone(),

@@ -76,9 +76,28 @@ pub const REFERENCE_COLUMNS: [&str; 18] = [
     "reaction_moment_z",
 ];
 
-/// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references and chosen `name.quantity` columns, in
-/// the order given.
-pub fn history_columns(contacts: &[&str], references: &[&str], chosen: &[&str]) -> Vec<String> {
+/// The columns of energies in `history.csv`, of models with inertia.
+///
+/// What is there: kinetic, in bodies and springs, in contact. What happened since the start: work of supports and loads, spent in
+/// friction and damping, and what the method of going through time has taken away.
+pub const ENERGY_COLUMNS: [&str; 7] = [
+    "energy.kinetic",
+    "energy.internal",
+    "energy.contact",
+    "energy.external",
+    "energy.friction",
+    "energy.damping",
+    "energy.algorithmic",
+];
+
+/// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references, [`ENERGY_COLUMNS`] and chosen `name.quantity`
+/// columns, in the order given.
+pub fn history_columns(
+    contacts: &[&str],
+    references: &[&str],
+    has_inertia: bool,
+    chosen: &[&str],
+) -> Vec<String> {
     let of = |names: &[&str], columns: &[&str]| -> Vec<String> {
         names
             .iter()
@@ -88,6 +107,9 @@ pub fn history_columns(contacts: &[&str], references: &[&str], chosen: &[&str]) 
     let mut all: Vec<String> = HISTORY_COLUMNS.iter().map(ToString::to_string).collect();
     all.extend(of(contacts, &CONTACT_COLUMNS));
     all.extend(of(references, &REFERENCE_COLUMNS));
+    if has_inertia {
+        all.extend(ENERGY_COLUMNS.iter().map(ToString::to_string));
+    }
     all.extend(chosen.iter().map(ToString::to_string));
     all
 }
@@ -239,7 +261,7 @@ mod tests {
     #[test]
     fn the_history_has_the_documented_columns() {
         assert_eq!(
-            header(&history_columns(&["c"], &["r"], &["pull.force_z"])),
+            header(&history_columns(&["c"], &["r"], false, &["pull.force_z"])),
             "time,step,increment,iterations,c.force_x,c.force_y,c.force_z,c.moment_x,c.moment_y,c.moment_z,\
              c.pressure_max,c.gap_min,c.slip_max,c.area_open,c.area_stick,c.area_slip,c.center_x,c.center_y,c.center_z,\
              c.work_friction,r.force_x,r.force_y,r.force_z,r.moment_x,r.moment_y,r.moment_z,r.displacement_x,\

@@ -35,6 +35,8 @@ pub struct Damper {
     idle: Option<(Layout, Arc<Activity>)>,
     /// The number of the step.
     step: usize,
+    /// Whether inertia resists instead.
+    rests: bool,
 }
 
 /// A load drives a motion that nothing resists so far where the forces have not fallen to this part since the last renewal.
@@ -112,6 +114,7 @@ impl Damper {
             work: 0.0,
             idle: None,
             step: 0,
+            rests: false,
         }
     }
 
@@ -133,6 +136,7 @@ impl Damper {
     /// s.
     const fn strength(&self) -> f64 {
         match self.strength {
+            _ if self.rests => 0.0,
             Strength::UntilHeld {
                 acts: true, boost, ..
             } => boost * self.weakened,
@@ -156,7 +160,7 @@ impl Damper {
     /// long as that is not negligible. Where a load drives a motion that nothing resists, the forces become weaker, up to where
     /// something does; where nothing ever does, the iteration fails.
     fn renew(&mut self, state: &State) -> Option<f64> {
-        if !matches!(self.strength, Strength::UntilHeld { acts: true, .. }) {
+        if self.rests || !matches!(self.strength, Strength::UntilHeld { acts: true, .. }) {
             return None;
         }
         let forces = (0..self.nchunk()).flat_map(|c| self.chunk(c));
@@ -211,7 +215,7 @@ impl Term for Damper {
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
-        if matches!(self.strength, Strength::Asked(0.0)) {
+        if self.rests || matches!(self.strength, Strength::Asked(0.0)) {
             return;
         }
         for &(dof, _) in self.dofs.iter().filter(|(dof, _)| self.is_there(*dof)) {
@@ -221,6 +225,7 @@ impl Term for Damper {
 
     fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
         self.step = phase.step.number;
+        self.rests = phase.step.scheme.is_some();
         if phase.increment.is_none() {
             return Ok(());
         }
@@ -315,6 +320,9 @@ impl Adaptive for Damper {
         else {
             return false;
         };
+        if self.rests {
+            return false;
+        }
         match aid {
             Aid::Remove => !*needed && std::mem::take(acts),
             Aid::Restore | Aid::Safer => {

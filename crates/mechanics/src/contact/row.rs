@@ -146,6 +146,15 @@ impl Sliding {
         Some((column % 3, line))
     }
 
+    /// Multiplies the derivatives of normals and operators.
+    pub fn scale_derivatives(&mut self, factor: f64) {
+        self.dnormal.iter_mut().for_each(|d| *d *= factor);
+        self.dscale.iter_mut().for_each(|d| *d *= factor);
+        for turn in self.turns.iter_mut().take(self.nturn) {
+            turn.along.iter_mut().for_each(|d| *d *= factor);
+        }
+    }
+
     /// ∂B/∂d, but for [`Sliding::dscale`].
     #[must_use]
     pub fn turns(&self) -> &[Turn] {

@@ -263,6 +263,7 @@ mod tests {
             start,
             duration: 2.0,
             nonlinear: true,
+            scheme: None,
         }
     }
 

@@ -20,6 +20,8 @@
 //!        t2 = ∂x/∂η in space; e_z · thickness in the plane; 2πr e_z with the present r where it is axisymmetric
 //! f_I  = φ ω² ∫ ρ N_I P(x − c) dV,   −∂f_I/∂u_J = −φ ω² ∫ ρ N_I N_J P dV,   Π = −½ φ ω² ∫ ρ |P(x − c)|² dV    (E5)
 //! f_i  = (J⁻¹ M) × r_i,   J = Σ (r²I − r rᵀ)                   (E6)   a moment on nodes, r from their centre
+//! M_IJ = ∫ ρ N_I N_J dV                                        (E7)   for inertia, [`mass`]
+//! m_I  = M_II Σ_JK M_JK / Σ_J M_JJ                             (E8)   the same at nodes: never negative
 //! ```
 //!
 //! Nodes of rigid bodies are loaded as others are: the system hands the forces on, with their moments.
@@ -33,7 +35,7 @@
 //! Limits: in plane stress (E3) takes the thickness of the start, and so neglects that a stretched sheet gets thinner.
 //! The mass of (E2) and (E5) is consistent, that of the start, and integrated by the rule of its element. A jump within a table happens at the first increment that
 //! ends at it or after. Sources: Bonet and Wood 2008, sections 8.5.2 and 9.3 (following pressure); Schweizerhof and
-//! Ramm, Comput. Struct. 18, 1984 (its potentials).
+//! Ramm, Comput. Struct. 18, 1984 (its potentials); Hinton, Rock and Zienkiewicz, EESD 4, 1976 (E8).
 //!
 //! | load | acts on |
 //! |---|---|
@@ -55,6 +57,7 @@ mod force;
 mod gravity;
 mod kind;
 mod local;
+pub mod mass;
 mod moment;
 mod nodal_forces;
 mod per_node;

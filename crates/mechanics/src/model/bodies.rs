@@ -2,6 +2,7 @@ use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
 use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
+use crate::solve::Step;
 use crate::system::{Course, Dof, Idealisation, NO_DOF, NodalField, Term};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -201,13 +202,14 @@ impl Context<'_> {
         points.map(|x| space.extent(x)).fold(0.0, f64::max)
     }
 
-    /// The terms of the bodies, and what was chosen against locking for these sizes of strains.
+    /// The terms of the bodies, and what was chosen against locking for the sizes of strains in these steps.
     pub(super) fn bodies(
         &self,
         bodies: Vec<BodyPart>,
         temperature: Option<Arc<NodalField>>,
-        sizes: &[Kinematics],
+        steps: &[Step],
     ) -> Result<(Terms, Vec<LockingSummary>), ModelError> {
+        let sizes = &sizes_of_strain(steps);
         let mut terms = Terms::new();
         let mut summaries = Vec::new();
         for body in bodies {
@@ -286,6 +288,16 @@ impl Context<'_> {
         }
         Ok((terms, summaries))
     }
+}
+
+/// How large strains are in any of the steps.
+fn sizes_of_strain(steps: &[Step]) -> Vec<Kinematics> {
+    let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
+    sizes.retain(|k| {
+        let nonlinear = *k == Kinematics::Finite;
+        steps.iter().any(|s| s.nonlinear == nonlinear)
+    });
+    sizes
 }
 
 #[cfg(test)]

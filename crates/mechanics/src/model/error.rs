@@ -29,6 +29,18 @@ pub enum ModelError {
         /// Its name.
         body: String,
     },
+    /// A body without a mass in a step with inertia.
+    #[error("body \"{body}\" has no density, and a step has inertia")]
+    NoDensity {
+        /// Its name.
+        body: String,
+    },
+    /// A body of which too little is left where contact may act on nodes without mass.
+    #[error("body \"{body}\" is less than three elements thick: its mass cannot be redistributed")]
+    Thin {
+        /// Its name.
+        body: String,
+    },
     /// An element that is no solid.
     #[error(transparent)]
     Solid(#[from] SolidError),

@@ -38,6 +38,7 @@ fn contexts(steps: &[Step]) -> Vec<StepContext> {
             start,
             duration: step.duration,
             nonlinear: step.nonlinear,
+            scheme: step.scheme,
         };
         start += step.duration;
         here

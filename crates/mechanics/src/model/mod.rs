@@ -28,6 +28,7 @@ mod contact;
 mod context;
 mod error;
 mod held;
+mod inertia;
 mod label;
 mod loads;
 mod parts;
@@ -45,15 +46,16 @@ pub use held::Unheld;
 pub use parts::{
     ActivityPart, AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind,
     ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart,
-    Interference, LoadPart, Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart,
-    SidePart, SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
+    Interference, LoadPart, MassMatrix, MassPart, Method, Normals, PairOrder, Parts, PointKind,
+    PointRule, PrimaryPart, SidePart, SpringPart, StartPart, StepPart, StickPart, Target,
+    TieOffset, TiePart, Unknown,
 };
 pub use summary::{
     BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
 };
 
 use crate::contact::Interface;
-use crate::material::{Kinematics, Material};
+use crate::material::Material;
 use crate::solve::Step;
 use crate::system::{Layout, NodalField, System, Term};
 use bodies::{between, nodes_by_body, owners};
@@ -213,14 +215,13 @@ impl Model {
         let elimination = context.elimination.clone();
         let held_by_contact =
             followers.held_by_contact(&context, &joint, &steps, parts.hold_free)?;
-        let sizes = sizes_of_strain(&steps);
         let held = parts.stabilize.then_some(&held_by_contact[..]);
         let dampers = context.dampers(bodies, held, contacts.is_empty());
-        let (mut terms, locking) = context.bodies(parts.bodies, temperature, &sizes)?;
+        let (mut terms, locking) = context.bodies(parts.bodies, temperature, &steps)?;
         terms.extend(connectors);
         let summaries = context.interfaces(sides, &joint, &mut terms)?;
-        terms.extend(loads);
-        terms.extend(dampers);
+        let inertia = context.inertia(&steps, contacts, &parts.masses, &parts.velocity)?;
+        terms.extend(loads.into_iter().chain(dampers).chain(inertia));
         Ok(Self {
             unused: unused(&body_of_node),
             system: System {
@@ -232,6 +233,7 @@ impl Model {
                 body: body_of_node,
                 between,
                 ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
+                velocity: parts.velocity,
                 wanted: crate::system::Wanted::default(),
             },
             steps,
@@ -262,7 +264,8 @@ impl Followers<'_> {
     ) -> Result<Vec<Unheld>, ModelError> {
         let mut all: Vec<Unheld> = Vec::new();
         let changed = (1..steps.len()).filter(|&step| context.activity.changes_at(step));
-        for number in std::iter::once(0).chain(changed) {
+        let is_static = |number: &usize| steps.get(*number).is_none_or(|s| s.scheme.is_none());
+        for number in std::iter::once(0).chain(changed).filter(is_static) {
             let held = self.held_in(context, contacts, steps, number);
             match held.judge() {
                 Err(ModelError::FreeBodies(_)) if hold_free => {}
@@ -378,16 +381,6 @@ fn connected(mesh: &Mesh, contacts: &[ContactPart]) -> Bodies {
         _ => mesh.cells(mesh.dim()).collect(),
     };
     Bodies::new(mesh, &cells)
-}
-
-/// How large strains are in any of the steps.
-fn sizes_of_strain(steps: &[Step]) -> Vec<Kinematics> {
-    let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
-    sizes.retain(|k| {
-        let nonlinear = *k == Kinematics::Finite;
-        steps.iter().any(|s| s.nonlinear == nonlinear)
-    });
-    sizes
 }
 
 impl Context<'_> {

@@ -202,6 +202,7 @@ impl Context<'_> {
                 duration: part.duration,
                 increments: part.increments,
                 nonlinear: part.nonlinear,
+                scheme: part.scheme,
                 prescriptions: prescriptions.collect(),
             });
         }

@@ -1,6 +1,6 @@
 //! The density and section of a body, as loads see them.
 
-use super::{BodyKind, BodyPart};
+use super::{BodyKind, BodyPart, MassPart};
 use crate::solid::Integration;
 use crate::system::Idealisation;
 use std::sync::Arc;
@@ -9,6 +9,8 @@ use std::sync::Arc;
 pub(super) struct Substance {
     pub name: String,
     pub density: Option<f64>,
+    pub mass: MassPart,
+    pub deforms: bool,
     /// Cross-section of bars.
     pub section: Option<f64>,
     pub integration: Integration,
@@ -22,6 +24,8 @@ impl Substance {
         let mut of = Self {
             name: body.name.clone(),
             density: None,
+            mass: MassPart::default(),
+            deforms: !matches!(body.kind, BodyKind::Rigid(_)),
             section: None,
             integration: Integration::Full,
             space: body.kind.space(of_model),
@@ -30,14 +34,20 @@ impl Substance {
         match body.kind {
             BodyKind::Solid {
                 density,
+                mass,
                 integration,
                 ..
             } => {
-                of.density = density;
+                (of.density, of.mass) = (density, mass);
                 of.integration = integration;
             }
-            BodyKind::Truss { density, area, .. } => {
-                of.density = density;
+            BodyKind::Truss {
+                density,
+                mass,
+                area,
+                ..
+            } => {
+                (of.density, of.mass) = (density, mass);
                 of.section = Some(area);
             }
             BodyKind::Rigid(_) => {}

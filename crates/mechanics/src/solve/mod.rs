@@ -33,6 +33,7 @@
 //!
 //! This room knows nothing of solids or contact: all it sees is [`crate::system::Term`].
 
+mod begin;
 mod economy;
 mod equations;
 mod event;

@@ -1,6 +1,6 @@
 //! Steps: their increments, and the values that they prescribe.
 
-use crate::system::{Dof, TimeFunction};
+use crate::system::{Dof, Scheme, TimeFunction};
 
 /// How a step is cut into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +65,8 @@ pub struct Step {
     pub increments: Increments,
     /// Whether displacements may be large.
     pub nonlinear: bool,
+    /// How it goes through time, where inertia counts.
+    pub scheme: Option<Scheme>,
     /// What is prescribed during it; everything else is free.
     pub prescriptions: Vec<Prescription>,
 }

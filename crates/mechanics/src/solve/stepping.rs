@@ -4,11 +4,10 @@ use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
-use super::step::{Increments, Motion, Prescription, Sizes, Step};
+use super::step::{Increments, Motion, Sizes, Step};
 use super::work::ExternalWork;
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, Phase, State, StepContext, System, TermError,
-    interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, State, System, TermError, interpolate,
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
@@ -120,7 +119,7 @@ pub(super) struct Progress {
     /// Accepted increments in a row that were easy.
     pub easy: usize,
     /// Values of the prescribed dofs at the start of the step.
-    origin: Vec<f64>,
+    pub origin: Vec<f64>,
     /// Change of the state per time in the last increment of this step that did not jump; empty where there was none.
     pub rate: Vec<f64>,
     /// What the first step of the last increment has shown, where that started from an extrapolation.
@@ -256,7 +255,8 @@ impl Stepper {
             if observer.notice(&event) == Flow::Stop {
                 return Ok(Outcome::Stopped);
             }
-            self.begin_step(system, step)?;
+            self.begin_step(system, step)
+                .map_err(|cause| self.not_begun(step, cause))?;
             if self.run_step(system, step, observer)? == Outcome::Stopped {
                 return Ok(Outcome::Stopped);
             }
@@ -266,6 +266,13 @@ impl Stepper {
                 work: std::mem::take(&mut self.progress.work),
                 ..Progress::default()
             };
+            // a static step leads from rest to rest
+            if steps
+                .get(number + 1)
+                .is_some_and(|next| next.scheme.is_none())
+            {
+                self.state.rates = None;
+            }
         }
         Ok(Outcome::Finished)
     }
@@ -292,42 +299,6 @@ impl Stepper {
     fn pause_in(&self, step: &Step) -> Option<f64> {
         let time = self.pause? - self.progress.step_start;
         (time < step.duration - TIME * step.duration).then_some(time)
-    }
-
-    fn begin_step(&mut self, system: &mut System, step: &Step) -> Result<(), TermError> {
-        let progress = &mut self.progress;
-        let value = |p: &Prescription| self.state.u.get(p.dof as usize).copied().unwrap_or(0.0);
-        if progress.increment == 0 {
-            progress.origin = step.prescriptions.iter().map(value).collect();
-        }
-        let context = StepContext {
-            number: progress.step,
-            start: progress.step_start,
-            duration: step.duration,
-            nonlinear: step.nonlinear,
-        };
-        self.state.is_small = !step.nonlinear;
-        let phase = Phase::of_step(context);
-        for term in &mut system.terms {
-            term.begin(&phase, &self.state)?;
-        }
-        self.newton.step = context;
-        let (layout, elimination) = (&system.layout, &system.elimination);
-        let assembler = &mut self.newton.assembler;
-        self.newton.coupled_more |= assembler.begin_step(layout, elimination, &system.terms);
-        let prescribed = &mut self.newton.prescribed;
-        prescribed.clear();
-        prescribed.resize(system.layout.ndof(), false);
-        for p in &step.prescriptions {
-            if let Some(prescribed) = prescribed.get_mut(p.dof as usize) {
-                *prescribed = true;
-            }
-        }
-        for term in system.choices_mut() {
-            term.prescribe(prescribed);
-        }
-        self.newton.analyzed = false;
-        Ok(())
     }
 
     fn run_step(
@@ -408,7 +379,8 @@ impl Stepper {
             failed += usize::from(!extrapolated);
             let again = self.tries_again(system, extrapolated);
             let due = |n| failed == n + 1 || (smallest && failed <= n);
-            owed |= !extrapolated && self.stabilize_after.is_some_and(due);
+            let may_creep = step.scheme.is_none() && self.stabilize_after.is_some_and(due);
+            owed |= !extrapolated && may_creep;
             if owed && !again {
                 owed = false;
                 attempt += 1;
@@ -585,8 +557,16 @@ impl Stepper {
         let (newton, states) = (&self.newton, [&self.state, &self.newton.trial]);
         let residual = &newton.assembly.residual;
         let work = &mut self.progress.work;
-        work.advance(system, &newton.prescribed, residual, states)?;
+        let between = newton.between();
+        work.advance(system, &newton.prescribed, residual, states, between)?;
+        let mut rates = self.state.rates.clone();
+        if let (Some(scheme), Some(rates)) = (newton.step.scheme, &mut rates) {
+            let [from, to] = states;
+            let h = to.time - from.time;
+            rates.advance(&scheme, h, [&from.x, &to.x], system.massless());
+        }
         self.state.clone_from(&self.newton.trial);
+        self.state.rates = rates;
         system.accept(&self.state)
     }
 
@@ -678,6 +658,9 @@ impl Stepper {
         let mut frame = system.report(&self.state, prescribed, assembly)?;
         frame.step_number = self.progress.step;
         frame.work_external = self.progress.work.total;
+        if let Some(energies) = &mut frame.energies {
+            energies.external = self.progress.work.total;
+        }
         frame.increment = self.progress.increment;
         frame.work_turnover = self.progress.work.turnover;
         Ok(frame)
@@ -746,6 +729,7 @@ impl Stepper {
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;
+        self.state.rates = state.rates;
         system.load(from)?;
         self.newton.scale = ForceScale::from_values(&scale);
         self.newton.analyzed = false;

@@ -7,7 +7,7 @@ use crate::system::{
 /// Work that supports and loads have done since the start of a run.
 ///
 /// From one accepted state to the next, it is the motion times the mean of the forces at both: exact where forces are
-/// linear in the motion, of second order elsewhere. Supports count where dofs are prescribed in the present step: the
+/// linear in the motion, of second order elsewhere. Where inertia counts, it is the motion times the forces between both. Supports count where dofs are prescribed in the present step: the
 /// force of a support that is removed does no work.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ExternalWork {
@@ -24,7 +24,8 @@ pub(super) struct ExternalWork {
 const STORED: [&str; 2] = ["progress.supports", "progress.loads"];
 
 impl ExternalWork {
-    /// Adds the work on the way from the accepted state `from` to the one `to`, at which `residual` was assembled.
+    /// Adds the work on the way from the accepted state `from` to the one `to`, at which `residual` was assembled, or at the one
+    /// between them.
     ///
     /// # Errors
     /// A load that cannot be evaluated.
@@ -34,6 +35,7 @@ impl ExternalWork {
         prescribed: &[bool],
         residual: &[f64],
         [from, to]: [&State; 2],
+        between: Option<&State>,
     ) -> Result<(), TermError> {
         let ndof = system.layout.ndof();
         let mut loads = Loads(vec![0.0; ndof]);
@@ -41,11 +43,15 @@ impl ExternalWork {
         let terms = system.terms.iter();
         for term in terms.filter(|term| term.properties().role == Role::Load) {
             for chunk in 0..term.nchunk() {
-                term.evaluate(chunk, to, Order::Residual, &mut work, &mut loads)?;
+                let at = between.unwrap_or(to);
+                term.evaluate(chunk, at, Order::Residual, &mut work, &mut loads)?;
             }
         }
         let reaction = |(&prescribed, &r): (&bool, &f64)| if prescribed { r } else { 0.0 };
         let supports: Vec<f64> = prescribed.iter().zip(residual).map(reaction).collect();
+        if between.is_some() {
+            (self.supports, self.loads) = (supports.clone(), loads.0.clone());
+        }
         self.supports.resize(supports.len(), 0.0);
         self.loads.resize(ndof, 0.0);
         let mut work = 0.0;

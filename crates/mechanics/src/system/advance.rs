@@ -1,6 +1,7 @@
 //! How states move: displacements add, rotations compose, dependent nodes follow.
 
 use super::{Elimination, Layout, State};
+use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
 impl State {
@@ -13,6 +14,8 @@ impl State {
             is_small: false,
             poses: elimination.initial_poses(),
             x: reference.to_vec(),
+            rates: None,
+            between: None,
         }
     }
 
@@ -49,6 +52,39 @@ impl State {
             }
             *x = moved;
         }
+    }
+
+    /// Becomes the state between an accepted one and the trial at the end of its increment, (E6). Multipliers, and fields
+    /// besides displacements, are those of the trial. Allocates nothing when all states belong to the same system.
+    pub fn set_between(&mut self, alpha_f: f64, layout: &Layout, [from, to]: [&Self; 2]) {
+        let mut between = self.between.take().unwrap_or_default();
+        between.alpha_f = alpha_f;
+        let ways = to.x.iter().zip(&from.x);
+        between.way.clear();
+        between.way.extend(ways.map(|(to, from)| *to - *from));
+        between.turn.clear();
+        let poses = from.poses.iter().zip(&to.poses);
+        between.turn.extend(poses.map(|(from, to)| {
+            let turn = to.rotation * from.rotation.transpose();
+            [to.origin - from.origin, turn.rotation_vector()]
+        }));
+        self.time = (1.0 - alpha_f) * to.time + alpha_f * from.time;
+        self.is_small = to.is_small;
+        self.u.clone_from(&to.u);
+        let motions = self.u.iter_mut().zip(&from.u).take(layout.nmotion());
+        motions.for_each(|(u, from)| *u += alpha_f * (from - *u));
+        self.x.clone_from(&to.x);
+        let places = self.x.iter_mut().zip(&between.way);
+        places.for_each(|(x, way)| *x -= *way * alpha_f);
+        let blend = |from: Mat3, to: Mat3| to * (1.0 - alpha_f) + from * alpha_f;
+        self.poses.clear();
+        let poses = from.poses.iter().zip(&to.poses);
+        // the mean of both arms: what nodes of a body do between is the mean of what they do at both ends
+        self.poses.extend(poses.map(|(from, to)| Pose {
+            origin: to.origin * (1.0 - alpha_f) + from.origin * alpha_f,
+            rotation: blend(from.rotation, to.rotation),
+        }));
+        self.between = Some(between);
     }
 }
 

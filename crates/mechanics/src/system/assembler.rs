@@ -7,8 +7,8 @@ use super::setting::Setting;
 use super::shares::share_out;
 use super::strip::{bulk, find_blocks, largest};
 use super::{
-    Dof, Elimination, InitialStiffness, Layout, Lifetime, Order, Part, PatternSink, State, Term,
-    TermError, Work,
+    Dof, Elimination, InitialStiffness, Layout, Lifetime, Order, Part, PatternSink, Role, State,
+    Term, TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
@@ -452,9 +452,15 @@ impl Assembler {
             order,
             shared: shared.as_ref(),
         };
+        // between the ends of an increment
+        let share = trial.between.as_ref().map(|of| 1.0 - of.alpha_f);
         let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
             let term = &terms[task.term];
-            term.evaluate(task.chunk, trial, order_of(task), work, buffer)
+            term.evaluate(task.chunk, trial, order_of(task), work, buffer)?;
+            if let Some(share) = share.filter(|_| !term.properties().to_end) {
+                buffer.scale_motions(share, layout);
+            }
+            Ok(())
         };
         let of_bulk = if is_kept { Order::Residual } else { order };
         let (of_bulk, of_interface) = (wave(of_bulk), wave(order));
@@ -472,6 +478,60 @@ impl Assembler {
         {
             *magnitude = 0.0;
         }
+        Ok(())
+    }
+
+    /// The forces of all terms at a state where a step begins, with the mass and what couples multipliers in the place of the
+    /// stiffness: solved for, they give accelerations and multipliers.
+    ///
+    /// # Errors
+    /// As [`Assembler::assemble`].
+    pub fn assemble_mass(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        state: &State,
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
+        self.share_out(layout, elimination, terms);
+        out.reset_forces(layout.ndof());
+        reset(&mut out.bulk, self.bulk.nvalue());
+        reset(&mut out.interface, self.interface.nentry());
+        out.bulk_of = None;
+        let Self {
+            tasks,
+            shared,
+            bulk,
+            interface,
+            slots,
+            expanded,
+            ..
+        } = self;
+        let setting = Setting {
+            layout,
+            elimination,
+            trial: state,
+            bulk,
+            interface,
+            order: Order::Tangent,
+            shared: shared.as_ref(),
+        };
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let term = &terms[task.term];
+            let is_mass = term.properties().role == Role::Inertia;
+            let order = match task.part {
+                Part::Bulk if !is_mass => Order::Residual,
+                _ => Order::Tangent,
+            };
+            term.evaluate(task.chunk, state, order, work, buffer)?;
+            if !is_mass {
+                buffer.keep_constraints(layout);
+            }
+            Ok(())
+        };
+        let size = wave(Order::Tangent);
+        setting.run(evaluate, |_| size, tasks, slots, expanded, out)?;
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! What a chunk of a term contributes before it is added.
 
-use super::{Dof, Sink, TermError, Work};
+use super::{Dof, Layout, Sink, TermError, Work};
 
 #[derive(Default)]
 pub(super) struct Slot {
@@ -57,6 +57,50 @@ impl Buffer {
         self.dofs.extend_from_slice(dofs);
         self.force.extend_from_slice(force);
         self.stiffness.extend_from_slice(stiffness);
+    }
+
+    /// Multiplies the stiffness against motions, the columns of all unknowns but multipliers.
+    pub fn scale_motions(&mut self, factor: f64, layout: &Layout) {
+        let first = layout.multiplier(0);
+        if self.dofs.iter().all(|&dof| dof < first) {
+            self.stiffness.iter_mut().for_each(|k| *k *= factor);
+            return;
+        }
+        self.each_entry(|[_, column], k| {
+            if column < first {
+                *k *= factor;
+            }
+        });
+    }
+
+    /// Leaves of the stiffness what couples multipliers with others.
+    pub fn keep_constraints(&mut self, layout: &Layout) {
+        let first = layout.multiplier(0);
+        self.each_entry(|[row, column], k| {
+            if row < first && column < first {
+                *k = 0.0;
+            }
+        });
+    }
+
+    /// Hands row, column and value of every entry of the stiffness to `change`; blocks of [`Sink::add_symmetric`], which have
+    /// no multipliers, as if both were the first unknown.
+    fn each_entry(&mut self, mut change: impl FnMut([Dof; 2], &mut f64)) {
+        let (mut dofs, mut stiffness) = (&self.dofs[..], &mut self.stiffness[..]);
+        for own in &self.contributions {
+            let (of_own, rest) = dofs.split_at(own.ndof);
+            let (entries, others) = std::mem::take(&mut stiffness).split_at_mut(own.nstiffness);
+            (dofs, stiffness) = (rest, others);
+            if own.is_symmetric {
+                entries.iter_mut().for_each(|k| change([0, 0], k));
+                continue;
+            }
+            let rows = entries.chunks_exact_mut(own.ndof.max(1)).zip(of_own);
+            for (values, &row) in rows {
+                let columns = values.iter_mut().zip(of_own);
+                columns.for_each(|(k, &column)| change([row, column], k));
+            }
+        }
     }
 
     pub fn clear(&mut self) {

@@ -10,6 +10,7 @@
 //! | [`Viscous`] | viscous forces |
 //! | [`Sampled`] | solids, trusses: values at integration points |
 //! | [`Audited`] | contact |
+//! | [`Inertial`] | inertia: where there is none |
 
 use super::{
     Archive, ArchiveError, ContactAudit, Course, Frame, NodeId, Order, Samples, Sink, State,
@@ -35,6 +36,8 @@ pub struct Capabilities<'a> {
     pub sampled: Option<&'a dyn Sampled>,
     /// Is a contact.
     pub audited: Option<&'a dyn Audited>,
+    /// Has the mass of all bodies.
+    pub inertial: Option<&'a dyn Inertial>,
 }
 
 /// A term that changes its pattern, or what it keeps frozen, while an iteration goes on.
@@ -151,6 +154,12 @@ pub trait Sampled {
     /// # Errors
     /// As [`Term::evaluate`](super::Term::evaluate).
     fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError>;
+}
+
+/// The term that has the mass of all bodies.
+pub trait Inertial {
+    /// The nodes that have no mass in the present step though their bodies have one.
+    fn massless(&self) -> &[NodeId];
 }
 
 /// A contact, as audits and messages see it.

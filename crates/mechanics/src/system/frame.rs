@@ -242,6 +242,34 @@ impl ContactFrame {
     }
 }
 
+/// Where the energy of a motion with inertia is, and where it went since the start of the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// ½ v·M v.
+    pub kinetic: f64,
+    /// The same at the start of the run.
+    pub kinetic_at_start: f64,
+    /// In bodies and springs.
+    pub internal: f64,
+    /// In what penalties and elastic sticking hold.
+    pub contact: f64,
+    /// Work of supports and loads.
+    pub external: f64,
+    /// Spent in friction.
+    pub friction: f64,
+    /// Spent in damping.
+    pub damping: f64,
+}
+
+impl Energies {
+    /// What the method of going through time has taken away; negative where it has added some.
+    #[must_use]
+    pub fn algorithmic(&self) -> f64 {
+        let given = self.kinetic_at_start + self.external;
+        given - (self.kinetic + self.internal + self.contact + self.friction + self.damping)
+    }
+}
+
 /// A field of the nodes at an accepted state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NodalValues {
@@ -268,6 +296,10 @@ pub struct Frame {
     pub increment: usize,
     /// Displacement of each node.
     pub displacement: Vec<Vec3>,
+    /// Velocity of each node; empty where there is no inertia.
+    pub velocity: Vec<Vec3>,
+    /// Acceleration of each node, which belongs to an earlier time, (E7) of `motion`; empty where there is no inertia.
+    pub acceleration: Vec<Vec3>,
     /// Force that supports exert on each node.
     pub reaction_force: Vec<Vec3>,
     /// The fields of the nodes besides the displacement.
@@ -315,6 +347,8 @@ pub struct Frame {
     pub work_turnover: f64,
     /// Potential energy, where every term has one.
     pub energy: Option<f64>,
+    /// Where the energy of a motion with inertia is; none in a model without.
+    pub energies: Option<Energies>,
     /// What the audits of the contacts found.
     pub audits: Vec<ContactAudit>,
     /// How bodies that only contact holds moved in the increment.

@@ -33,6 +33,8 @@
 //! Unknowns are named fields ([`Layout`]). The bulk is that of the displacement; the coefficients of other fields, and
 //! those that couple fields, are in the interface.
 //!
+//! In a motion with inertia all terms are evaluated between the ends of an increment, (E4) to (E7) in `motion`.
+//!
 //! One more field: [`Layout::with_field`], and a term that adds to its dofs through [`PatternSink::interface`].
 //!
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
@@ -54,6 +56,7 @@ mod idealisation;
 mod internal_forces;
 mod layout;
 mod loose;
+mod motion;
 mod phase;
 mod samples;
 mod setting;
@@ -72,18 +75,19 @@ pub use assembler::Assembler;
 pub use assembly::Assembly;
 pub use audited::{Check, ContactAudit, Measured};
 pub use capabilities::{
-    Adaptive, Aid, Audited, Capabilities, Choices, ContactNumbering, Elementwise, InitialStiffness,
-    Sampled, Stored, Verdict, Viscous,
+    Adaptive, Aid, Audited, Capabilities, Choices, ContactNumbering, Elementwise, Inertial,
+    InitialStiffness, Sampled, Stored, Verdict, Viscous,
 };
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Footprint, Frame, FreeMotion, IdleRows, NodalValues, ReportedAs,
-    Resultant, RigidFrame, SpinFrame, Status,
+    ContactFrame, ContactSample, Energies, Footprint, Frame, FreeMotion, IdleRows, NodalValues,
+    ReportedAs, Resultant, RigidFrame, SpinFrame, Status,
 };
 pub use idealisation::{Idealisation, profile_at};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
 pub use loose::Course;
+pub use motion::{Between, Rates, Scheme};
 pub use phase::{Increment, Phase, StepContext};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;

@@ -1,5 +1,7 @@
 //! Where a run is, as terms see it.
 
+use super::Scheme;
+
 /// The step a run is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepContext {
@@ -11,6 +13,8 @@ pub struct StepContext {
     pub duration: f64,
     /// Whether displacements may be large.
     pub nonlinear: bool,
+    /// How it goes through time, where inertia counts.
+    pub scheme: Option<Scheme>,
 }
 
 /// The step before any begins.
@@ -21,6 +25,7 @@ impl Default for StepContext {
             start: 0.0,
             duration: 1.0,
             nonlinear: true,
+            scheme: None,
         }
     }
 }

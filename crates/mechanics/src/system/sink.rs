@@ -43,6 +43,8 @@ pub enum Role {
     Support,
     /// From outside: a load, which does work, as supports do.
     Load,
+    /// From inertia. Where a step begins, such a term has no force, and the mass as its stiffness.
+    Inertia,
 }
 
 /// What can go wrong while a term is evaluated.

@@ -1,4 +1,4 @@
-use super::{Archive, ArchiveError, Layout};
+use super::{Archive, ArchiveError, Between, Layout, Rates};
 use signorini_geometry::surface::{Placement, Pose};
 use signorini_geometry::tensor::Vec3;
 
@@ -17,7 +17,14 @@ pub struct State {
     pub poses: Vec<Pose>,
     /// Present positions of the nodes.
     pub x: Vec<Vec3>,
+    /// Velocities and accelerations of the nodes, where the state is an accepted one of a motion with inertia.
+    pub rates: Option<Rates>,
+    /// Where the state is between the ends of an increment of such a motion, what it brings with it.
+    pub between: Option<Between>,
 }
+
+/// The names under which rates are stored.
+const RATES: [&str; 2] = ["state.velocity", "state.acceleration"];
 
 impl State {
     /// The configuration, as geometry sees it.
@@ -39,6 +46,12 @@ impl State {
         };
         let poses: Vec<[f64; 3]> = self.poses.iter().flat_map(numbers).collect();
         out.put("state.poses", poses.as_flattened());
+        if let Some(rates) = &self.rates {
+            for (name, rates) in RATES.iter().zip([&rates.velocity, &rates.acceleration]) {
+                let numbers: Vec<[f64; 3]> = rates.iter().map(|rate| rate.to_array()).collect();
+                out.put(*name, numbers.as_flattened());
+            }
+        }
     }
 
     /// Takes a stored state back, positions excepted: they follow when the state is advanced.
@@ -55,6 +68,18 @@ impl State {
             for (row, n) in pose.rotation.rows.iter_mut().zip(&n[1..]) {
                 *row = Vec3::from(*n);
             }
+        }
+        self.rates = None;
+        if from.length(RATES[0]).is_ok() {
+            let [velocity, acceleration] = RATES.map(|name| {
+                let mut numbers = vec![[0.0; 3]; self.x.len()];
+                from.get(name, numbers.as_flattened_mut())?;
+                Ok(numbers.into_iter().map(Vec3::from).collect())
+            });
+            self.rates = Some(Rates {
+                velocity: velocity?,
+                acceleration: acceleration?,
+            });
         }
         Ok(())
     }

@@ -12,6 +12,9 @@ pub struct Properties {
     pub lifetime: Lifetime,
     /// Where its forces come from.
     pub role: Role,
+    /// Whether its stiffness between the ends of an increment, [`State::between`], is that against the end; else it is that
+    /// against the state where it is evaluated.
+    pub to_end: bool,
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     pub has_saddle: bool,
     /// Identifies the elements that take part. Equal numbers mean equal elements, and with them an equal pattern of the
@@ -28,6 +31,7 @@ impl Properties {
             part,
             lifetime: Lifetime::State,
             role: Role::Internal,
+            to_end: false,
             has_saddle: false,
             elements: 0,
         }

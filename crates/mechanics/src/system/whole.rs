@@ -1,11 +1,16 @@
 use super::internal_forces::internal_forces;
 use super::{
     Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, Elimination,
-    FieldId, Frame, FreeMotion, Layout, NodalValues, Samples, State, Term, TermError, Wanted,
+    FieldId, Frame, FreeMotion, Layout, NodalValues, Rates, Role, Samples, State, Term, TermError,
+    Wanted, Work,
 };
-use signorini_geometry::mesh::CellId;
+use rayon::prelude::*;
+use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
+
+/// The largest motion of an unknown in the small time of [`System::rates`].
+const SOON: f64 = 1e-6;
 
 /// Everything that is solved together.
 pub struct System {
@@ -25,6 +30,8 @@ pub struct System {
     pub between: Vec<[u32; 2]>,
     /// Cells of each block of the mesh, for frames.
     pub ncell: Vec<usize>,
+    /// Velocities of the nodes at the start; empty where nothing moves.
+    pub velocity: Vec<Vec3>,
     /// What frames have besides.
     pub wanted: Wanted,
 }
@@ -33,7 +40,11 @@ impl System {
     /// The undeformed state.
     #[must_use]
     pub fn initial_state(&self) -> State {
-        State::initial(&self.layout, &self.reference, &self.elimination)
+        let mut state = State::initial(&self.layout, &self.reference, &self.elimination);
+        if !self.velocity.is_empty() {
+            state.rates = Some(Rates::new(self.velocity.clone()));
+        }
+        state
     }
 
     /// The terms that change for the sake of an iteration.
@@ -97,6 +108,52 @@ impl System {
         trial.advance_from(base, du, alpha, layout, reference, &self.elimination);
     }
 
+    /// How the nodes move at a state where unknowns change at these rates. Of nodes that follow others it is a difference
+    /// over a small time, good to ten digits of the largest rate.
+    fn rates(&self, state: &State, rates: &[f64]) -> Vec<Vec3> {
+        let layout = &self.layout;
+        let motions = rates.iter().take(layout.nmotion());
+        let fastest = motions.fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let mut moved = state.clone();
+        let time = if fastest > 0.0 { SOON / fastest } else { 0.0 };
+        self.advance(&mut moved, state, rates, time);
+        let of_node = |(node, (to, from)): (usize, (&Vec3, &Vec3))| {
+            let mut rate = Vec3::ZERO;
+            for axis in 0..layout.ndim() {
+                let dof = layout.node(node as u32, axis);
+                let own = rates.get(dof as usize).copied().unwrap_or_default();
+                rate[axis] = match self.elimination.depends(dof, layout) {
+                    true if time > 0.0 => (to[axis] - from[axis]) / time,
+                    _ => own,
+                };
+            }
+            rate
+        };
+        let places = moved.x.iter().zip(&state.x).enumerate();
+        places.map(of_node).collect()
+    }
+
+    /// Sets the accelerations of the nodes at a state, given those of unknowns.
+    pub fn accelerate(&self, state: &mut State, accelerations: &[f64]) {
+        let acceleration = self.rates(state, accelerations);
+        let nnode = self.layout.nnode();
+        let rates = state.rates.get_or_insert_with(|| Rates::at_rest(nnode));
+        rates.acceleration = acceleration;
+        for &node in self.massless() {
+            if let Some(to) = rates.acceleration.get_mut(node as usize) {
+                *to = Vec3::ZERO;
+            }
+        }
+    }
+
+    /// The nodes that have no mass in the present step though their bodies have one.
+    #[must_use]
+    pub fn massless(&self) -> &[NodeId] {
+        let mut terms = self.terms.iter();
+        let inertial = terms.find_map(|term| term.capabilities().inertial);
+        inertial.map_or(&[], |of| of.massless())
+    }
+
     /// The results at an accepted state: motions, what every term reports, and the reactions at the prescribed dofs,
     /// from the assembly at that state.
     ///
@@ -112,6 +169,10 @@ impl System {
         frame.time = state.time;
         for (node, u) in frame.displacement.iter_mut().enumerate() {
             *u = self.displacement(state, node as u32);
+        }
+        if let Some(rates) = &state.rates {
+            frame.velocity.clone_from(&rates.velocity);
+            frame.acceleration.clone_from(&rates.acceleration);
         }
         let layout = &self.layout;
         frame.rigid.resize_with(layout.nrigid(), Default::default);
@@ -143,6 +204,12 @@ impl System {
         for term in &self.terms {
             term.report(state, &mut frame)?;
         }
+        if let Some(energies) = &mut frame.energies {
+            let of_contacts = frame.contacts.iter();
+            energies.contact = of_contacts.clone().flat_map(|c| &c.energy).sum();
+            energies.friction = of_contacts.map(|c| c.work_friction).sum();
+            energies.internal = self.energy_within(state)?;
+        }
         frame.audits = self.audit(state, &frame);
         frame.free_motions = self.free_motions(state, &frame);
         frame.samples = samples_of(&self.terms, state, &self.wanted.cells)?;
@@ -150,6 +217,23 @@ impl System {
             frame.internal_force = internal_forces(&self.terms, &self.layout, state)?;
         }
         Ok(frame)
+    }
+
+    /// The energy in bodies and springs at an accepted state, as far as they have one.
+    fn energy_within(&self, state: &State) -> Result<f64, TermError> {
+        let mut total = 0.0;
+        for term in &self.terms {
+            let is_contact = term.capabilities().audited.is_some();
+            if term.properties().role != Role::Internal || is_contact {
+                continue;
+            }
+            let chunks = 0..term.nchunk();
+            let of_chunk = |work: &mut Work, chunk| term.energy(chunk, state, work);
+            let energies = chunks.into_par_iter().map_init(Work::default, of_chunk);
+            let energies: Result<Vec<Option<f64>>, TermError> = energies.collect();
+            total += energies?.into_iter().flatten().sum::<f64>();
+        }
+        Ok(total)
     }
 
     /// The fields of the nodes besides the displacement.

@@ -23,6 +23,7 @@ fn trusses_are_removed_and_added_as_solids_are() {
                 kind: BodyKind::Truss {
                     material: Box::new(SaintVenantKirchhoff::new(E, 0.0)),
                     density: None,
+                    mass: Default::default(),
                     area: 1.0,
                     small: false,
                 },

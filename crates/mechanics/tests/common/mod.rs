@@ -252,6 +252,7 @@ pub fn solid(name: &str, cells: &[CellId], material: impl Material + 'static) ->
             material: Box::new(material),
             later: Vec::new(),
             density: None,
+            mass: Default::default(),
             integration: Integration::Full,
             locking: Locking::Auto,
             space: None,

@@ -106,6 +106,11 @@ class Body(Table):
         "`\"auto\"`, `\"none\"`, `\"b-bar\"`, `\"f-bar\"`, `\"incompatible\"`, `\"selective-shear\"`",
         default="auto",
     )
+    mass_matrix: Key[Literal["auto", "consistent", "lumped"], Literal["auto", "consistent", "lumped"]] = Key(
+        "Where its mass is in dynamic steps: between the nodes of elements, or at these; auto: consistent",
+        "`\"auto\"`, `\"consistent\"`, `\"lumped\"`",
+        default="auto",
+    )
     material: Key[str | None, str] = Key("Its material; none for a rigid body", "text")
     orientation: Mixed[BodyOrientation] = Mixed(
         BodyOrientation,
@@ -592,6 +597,28 @@ class InitialAt(Table):
     temperature: Key[float | None, float] = Key("The temperature at the start", "number")
 
 
+class InitialVelocity(Table):
+    """Velocities at the start of the first step, if it is dynamic; of several that name a node the last holds.
+
+    TOML: `initial.velocity`.
+    """
+
+    _toml = "initial.velocity"
+    about: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "A point of its axis; absent: the origin",
+        "list of number",
+    )
+    omega: Key[float | list[float] | None, float | Sequence[float] | NDArray[Any]] = Key(
+        "Angular velocity (radian/time); a number in the plane",
+        "number or list of number",
+    )
+    on: Key[str | None, str] = Key("The set or group", "text")
+    v: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "Velocity; of the point `about`, where there is an `omega`",
+        "list of number",
+    )
+
+
 class Initial(Table):
     """Fields at the start.
 
@@ -615,6 +642,35 @@ class Initial(Table):
     temperature: Key[float | None, float] = Key(
         "Temperature of everything; absent: that at which materials have no thermal strain",
         "number",
+    )
+    velocity: Items[InitialVelocity] = Items(
+        InitialVelocity,
+        "Velocities at the start of the first step, if it is dynamic; of several that name a node the last holds",
+        "list of a table",
+    )
+
+
+class Mass(Table):
+    """Masses at nodes, in dynamic steps.
+
+    TOML: `mass`.
+    """
+
+    _toml = "mass"
+    on: Key[str | None, str] = Key("The set or group", "text")
+    value: Key[float | None, float] = Key("The mass at each of its nodes", "number > 0.0")
+
+
+class MaterialDamping(Table):
+    """Viscous forces in dynamic steps.
+
+    TOML: `material.damping`.
+    """
+
+    _toml = "material.damping"
+    mass: Key[float | None, float] = Key(
+        "Force over mass and velocity (1/time); motions of the body as a whole are slowed, too",
+        "number ≥ 0.0",
     )
 
 
@@ -690,6 +746,7 @@ class Material(MaterialTable):
     bulk: Key[float | None, float] = Key("Bulk modulus (stress)", "number > 0.0")
     c01: Key[float | None, float] = Key("Constant of mooney-rivlin (stress)", "number")
     c10: Key[float | None, float] = Key("Constant of mooney-rivlin (stress)", "number")
+    damping: One[MaterialDamping] = One(MaterialDamping, "Viscous forces in dynamic steps", "a table")
     density: Key[float | None, float] = Key("Mass per volume", "number > 0.0")
     expansion: One[MaterialExpansion] = One(
         MaterialExpansion,
@@ -1427,6 +1484,33 @@ class Deactivate(Table):
     )
 
 
+class Dynamics(Table):
+    """How a dynamic step goes through time.
+
+    TOML: `step.dynamics`.
+    """
+
+    _toml = "step.dynamics"
+    alpha: Key[float | None, float] = Key(
+        "In its place, that of Hilber, Hughes and Taylor; 0: the trapezoidal rule of Newmark",
+        "number ≥ -0.3333333333333333, ≤ 0.0",
+    )
+    contact_mass: Key[Literal["as-is", "redistributed"], Literal["as-is", "redistributed"]] = Key(
+        "Redistributed: elements with nodes on a side of a contact give their mass to their other nodes; impacts then neither flicker nor lose energy",
+        "`\"as-is\"`, `\"redistributed\"`",
+        default="as-is",
+    )
+    method: Key[Literal["generalized-alpha"], Literal["generalized-alpha"]] = Key(
+        "Implicit, of second order",
+        "`\"generalized-alpha\"`",
+        default="generalized-alpha",
+    )
+    rho_inf: Key[float | None, float] = Key(
+        "What is left of the highest frequencies after an increment, from 1, all, to 0; absent: 0.8",
+        "number ≥ 0.0, ≤ 1.0",
+    )
+
+
 class Fix(Table):
     """Supports, at the present position.
 
@@ -1705,6 +1789,7 @@ class Step(Table):
         key="deactivate",
     )
     duration: Key[float, float] = Key("How long it takes", "number > 0.0", default=1.0)
+    dynamics: One[Dynamics] = One(Dynamics, "How a dynamic step goes through time", "a table")
     fixes: Items[Fix] = Items(Fix, "Supports, at the present position", "list of a table", key="fix")
     frees: Items[Free] = Items(Free, "Supports and motions of earlier steps that end", "list of a table", key="free")
     geometry: Key[Literal["auto", "linear", "nonlinear"], Literal["auto", "linear", "nonlinear"]] = Key(
@@ -1718,7 +1803,11 @@ class Step(Table):
         "whole number ≥ 1, ≤ 1000000000 or a table",
         default=10,
     )
-    kind: Key[Literal["static"], Literal["static"]] = Key("The kind of analysis", "`\"static\"`", default="static")
+    kind: Key[Literal["static", "dynamic"], Literal["static", "dynamic"]] = Key(
+        "The kind of analysis: equilibrium, or a motion in time with inertia",
+        "`\"static\"`, `\"dynamic\"`",
+        default="static",
+    )
     loads: Items[Load] = Items(
         Load,
         "Loads, reached linearly over the step unless `table` or `amplitude` says otherwise",
@@ -2013,6 +2102,7 @@ class CaseTable(Table):
     expects: Items[Expect] = Items(Expect, "Values that are checked at the end", "list of a table", key="expect")
     format: Key[int, int] = Key("Version of the case format", "whole number ≥ 1", default=1)
     initial: One[Initial] = One(Initial, "Fields at the start", "a table")
+    mass: Items[Mass] = Items(Mass, "Masses at nodes, in dynamic steps", "list of a table")
     materials: Named[Material] = Named(Material, "Materials", "tables by name", key="material")
     mesh: One[Mesh] = One(Mesh, "Nodes and elements: a file, or written in place", "a table")
     model: One[Model] = One(Model, "Dimension of the model", "a table")
@@ -2063,6 +2153,7 @@ if TYPE_CHECKING:
         "at_nodes": Literal["linear", "element"],
         "integration": Literal["full", "reduced", "raised"],
         "locking": Literal["auto", "none", "b-bar", "f-bar", "incompatible", "selective-shear"],
+        "mass_matrix": Literal["auto", "consistent", "lumped"],
         "orientation": str | BodyOrientation | Mapping[str, Any],
         "reference": str,
         "rigid": bool,

@@ -6,9 +6,9 @@ use signorini_geometry::surface::RigidId;
 use signorini_io::case::HistorySource;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_io::writers::csv::{
-    CONTACT_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS, history_columns,
+    CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS, history_columns,
 };
-use signorini_mechanics::system::{ContactFrame, Frame, Resultant, RigidFrame};
+use signorini_mechanics::system::{ContactFrame, Energies, Frame, Resultant, RigidFrame};
 
 /// The columns of a run and where their values come from.
 #[derive(Debug)]
@@ -16,6 +16,7 @@ pub struct History {
     columns: Vec<String>,
     contacts: Vec<String>,
     references: Vec<RigidId>,
+    has_inertia: bool,
     chosen: Vec<Chosen>,
 }
 
@@ -37,7 +38,8 @@ impl History {
         let contacts = contacts(model);
         let contacts: Vec<&str> = contacts.iter().map(String::as_str).collect();
         let references: Vec<&str> = model.references.iter().map(|r| r.name.as_str()).collect();
-        let standard = history_columns(&contacts, &references, &[]);
+        let has_inertia = model.steps.iter().any(|step| step.scheme.is_some());
+        let standard = history_columns(&contacts, &references, has_inertia, &[]);
         let mut found = Diagnostics::new();
         let mut names = Vec::new();
         let mut chosen = Vec::new();
@@ -57,7 +59,8 @@ impl History {
         }
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         Ok(Self {
-            columns: history_columns(&contacts, &references, &names),
+            columns: history_columns(&contacts, &references, has_inertia, &names),
+            has_inertia,
             contacts: contacts.iter().map(ToString::to_string).collect(),
             references: model.references.iter().map(|r| r.rigid).collect(),
             chosen,
@@ -90,6 +93,9 @@ impl History {
         for &body in &self.references {
             let rigid = frame.rigid.get(body as usize).copied();
             values.extend(of_reference(&rigid.unwrap_or_default()));
+        }
+        if self.has_inertia {
+            values.extend(of_energies(&frame.energies.unwrap_or_default()));
         }
         for one in &self.chosen {
             let value = match one {
@@ -220,6 +226,18 @@ fn of_contact(c: &ContactFrame) -> [f64; CONTACT_COLUMNS.len()] {
         p.y,
         p.z,
         c.work_friction,
+    ]
+}
+
+fn of_energies(e: &Energies) -> [f64; ENERGY_COLUMNS.len()] {
+    [
+        e.kinetic,
+        e.internal,
+        e.contact,
+        e.external,
+        e.friction,
+        e.damping,
+        e.algorithmic(),
     ]
 }
 

@@ -49,12 +49,24 @@ fn contact_status(frame: &Frame, node: usize) -> Option<f64> {
 }
 
 /// Every quantity with its name; those of forces are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 36] = [
+const QUANTITIES: [(&str, Read); 44] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
     ("displacement.magnitude", |f, n| {
         f.displacement.get(n).map(|v| v.norm())
+    }),
+    ("velocity.x", |f, n| vector(&f.velocity, n, 0)),
+    ("velocity.y", |f, n| vector(&f.velocity, n, 1)),
+    ("velocity.z", |f, n| vector(&f.velocity, n, 2)),
+    ("velocity.magnitude", |f, n| {
+        f.velocity.get(n).map(|v| v.norm())
+    }),
+    ("acceleration.x", |f, n| vector(&f.acceleration, n, 0)),
+    ("acceleration.y", |f, n| vector(&f.acceleration, n, 1)),
+    ("acceleration.z", |f, n| vector(&f.acceleration, n, 2)),
+    ("acceleration.magnitude", |f, n| {
+        f.acceleration.get(n).map(|v| v.norm())
     }),
     ("reaction_force.x", |f, n| vector(&f.reaction_force, n, 0)),
     ("reaction_force.y", |f, n| vector(&f.reaction_force, n, 1)),

@@ -39,6 +39,7 @@ fn look(model: &mut Model) -> Result<Frame, TermError> {
         start: 0.0,
         duration: first.map_or(1.0, |s| s.duration),
         nonlinear: first.is_none_or(|s| s.nonlinear),
+        scheme: first.and_then(|s| s.scheme),
     };
     let increment = Increment {
         number: 1,

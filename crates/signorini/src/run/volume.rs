@@ -90,6 +90,12 @@ impl Volume {
             Field::new("displacement", Values::Vector(&displacement)),
             Field::new("reaction_force", Values::Vector(&reaction)),
         ];
+        let rates = [&frame.velocity, &frame.acceleration].map(|rates| vectors(rates));
+        for (name, rates) in ["velocity", "acceleration"].into_iter().zip(&rates) {
+            if !rates.is_empty() {
+                at_nodes.push(Field::new(name, Values::Vector(rates)));
+            }
+        }
         let mut in_cells = Vec::new();
         at_node.append(self.fields, &mut at_nodes);
         in_cell.append(self.fields, &mut in_cells);

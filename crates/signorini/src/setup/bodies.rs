@@ -14,7 +14,7 @@ use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Plasticity,
 };
-use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary};
+use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary, MassMatrix, MassPart};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
@@ -105,6 +105,13 @@ fn body_part(
     let part =
         material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
     let density = part.density.as_ref().map(|density| density.value);
+    let mass = MassPart {
+        matrix: match body.mass_matrix {
+            case::MassMatrix::Lumped => MassMatrix::Lumped,
+            case::MassMatrix::Auto | case::MassMatrix::Consistent => MassMatrix::Consistent,
+        },
+        damping: part.damping,
+    };
     let material = oriented(law(part, own, found)?, body);
     let later = later(case, body, own, found);
     if cells.solids.is_empty() && !cells.bars.is_empty() {
@@ -124,6 +131,7 @@ fn body_part(
             kind: BodyKind::Truss {
                 material,
                 density,
+                mass,
                 area,
                 small: body.small_strain,
             },
@@ -150,6 +158,7 @@ fn body_part(
             material,
             later,
             density,
+            mass,
             integration: integration(body.integration),
             locking: locking(body.locking.value),
             space: plane.map(|plane| plane.space),

@@ -78,6 +78,16 @@ impl Cuts {
         temperatures.extend(copied.filter_map(|(node, copy)| Some((copy, *given.get(&node)?))));
     }
 
+    /// Copies of nodes move as the nodes do.
+    pub fn moves(&self, velocities: &mut [Vec3]) {
+        for (node, copy) in self.pairs() {
+            let velocity = velocities.get(node as usize).copied();
+            if let (Some(from), Some(to)) = (velocity, velocities.get_mut(copy as usize)) {
+                *to = from;
+            }
+        }
+    }
+
     /// The equations of a constraint (E1), with what carries its overlap.
     pub fn equations(
         &self,

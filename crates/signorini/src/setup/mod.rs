@@ -17,6 +17,7 @@ mod idealisation;
 mod info;
 mod loads;
 mod mesh;
+mod motion;
 mod names;
 mod nonlinear;
 mod orientation;
@@ -343,6 +344,9 @@ fn parts<'a>(
     };
     let (steps, couplings) = steps.steps(found);
     parts.steps = steps;
+    parts.velocity = motion::velocities(case, names, mesh, found);
+    cuts.moves(&mut parts.velocity);
+    parts.masses = motion::masses(case, names, found);
     for step in &mut parts.steps {
         cuts.warm(&mut step.temperatures);
     }

@@ -55,6 +55,16 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             of_body(body),
             "name a group of solid elements",
         ),
+        ModelError::NoDensity { body } => (
+            &codes::MISSING,
+            of_body(body),
+            "write  density =  in its [material]",
+        ),
+        ModelError::Thin { body } => (
+            &codes::CONTRADICTION,
+            of_body(body),
+            "smaller elements; or  contact_mass = \"as-is\"  in `dynamics`",
+        ),
         ModelError::Solid(error) => {
             let (code, body, help) = of_solid_error(error);
             (code, of_body(body), help)

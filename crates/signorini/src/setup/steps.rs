@@ -11,7 +11,8 @@ use super::quoted;
 use crate::own::Own;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_io::case::{
-    self, Amplitude, Case, Directions, Factor, GlobalModel, Name, Remedy, Step, StrainAt, TimeBase,
+    self, Amplitude, Case, Directions, DynamicMethod, Factor, GlobalModel, Name, Remedy, Step,
+    StrainAt, TimeBase,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::load::Course;
@@ -19,7 +20,7 @@ use signorini_mechanics::model::{
     ActivityPart, BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target,
 };
 use signorini_mechanics::solve::{Increments, Motion};
-use signorini_mechanics::system::{CellChange, TimeFunction};
+use signorini_mechanics::system::{CellChange, Scheme, TimeFunction};
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
@@ -49,6 +50,7 @@ impl Builder<'_> {
                 duration: step.duration,
                 increments: increments(&step.increments, step.duration, self.may_cut()),
                 nonlinear,
+                scheme: self.scheme(step, found),
                 changes: self.changes(step, found),
                 loads: self.loads(number, step, &mut couplings, found),
                 contacts: contacts.of(step, found),
@@ -59,7 +61,7 @@ impl Builder<'_> {
             let changes = motions + part.loads.len() + step.contacts.len();
             // overlaps at the start are resolved in the first step
             let has_contact = !self.case.contacts.is_empty() || self.case.general.is_some();
-            let begins = number == 0 && has_contact;
+            let begins = number == 0 && has_contact || part.scheme.is_some();
             if changes == 0 && !begins && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
             }
@@ -68,6 +70,43 @@ impl Builder<'_> {
             steps.push(part);
         }
         (steps, couplings.into_iter().map(Coupling::part).collect())
+    }
+
+    /// The method of a dynamic step.
+    fn scheme(&self, step: &Step, found: &mut Diagnostics) -> Option<Scheme> {
+        let dynamics = step.dynamics.as_ref()?;
+        if *dynamics.redistributed && self.case.general.is_some() {
+            let message = "masses are redistributed at contacts that are named";
+            found.push(
+                Diagnostic::error(&codes::NOT_BUILT, message)
+                    .at(
+                        &dynamics.redistributed.place,
+                        "not where `all` finds contacts",
+                    )
+                    .help("name the pairs; or  contact_mass = \"as-is\""),
+            );
+        }
+        let mut steps = self.case.steps.iter();
+        let changed = steps.find_map(|step| {
+            let added = step.activations.first().map(|one| &one.place);
+            added.or_else(|| step.deactivations.first().map(|one| &one.place))
+        });
+        if let Some(place) = changed {
+            let message = "elements are neither removed nor added where a step is dynamic";
+            found.push(
+                Diagnostic::error(&codes::NOT_BUILT, message)
+                    .at(place, "their mass would stay")
+                    .help("delete it, or make all steps static"),
+            );
+        }
+        let scheme = match dynamics.method {
+            DynamicMethod::GeneralizedAlpha(radius) => Scheme::generalized_alpha(radius),
+            DynamicMethod::HilberHughesTaylor(alpha) => Scheme::hilber_hughes_taylor(alpha),
+        };
+        Some(Scheme {
+            redistributed: *dynamics.redistributed,
+            ..scheme
+        })
     }
 
     fn changes(&self, step: &Step, found: &mut Diagnostics) -> Vec<Change> {
@@ -95,7 +134,8 @@ impl Builder<'_> {
             }
             if let Some(target) = self.target(&part.on, turns, &part.place, found) {
                 let courses = part.u.iter().chain(&part.rot).enumerate();
-                let motions = courses.filter_map(|(c, m)| Some((c, self.motion(m.as_ref()?))));
+                let motions =
+                    courses.filter_map(|(c, m)| Some((c, self.motion(step, m.as_ref()?))));
                 changes.push(Change::Prescribe(target, motions.collect()));
             }
         }
@@ -121,7 +161,7 @@ impl Builder<'_> {
                 parts.push(LoadPart {
                     name: loads::name(step, place, load),
                     load: what,
-                    course: self.course(&load.course),
+                    course: self.course(step, &load.course),
                 });
             }
             if let Some(coupling) = context.coupling(load, found) {
@@ -222,8 +262,10 @@ impl Builder<'_> {
         self.amplitudes.get(name.value.as_str()).copied()
     }
 
-    fn motion(&self, course: &case::Motion) -> Motion {
+    fn motion(&self, step: &Step, course: &case::Motion) -> Motion {
         match course {
+            // at once, as in other programs
+            case::Motion::Ramp(to) if step.dynamics.is_some() => Motion::Table(vec![[0.0, *to]]),
             case::Motion::Ramp(to) => Motion::Ramp(*to),
             case::Motion::Table(table) => Motion::Table(table.clone()),
             case::Motion::Amplitude { name, value } => {
@@ -233,8 +275,9 @@ impl Builder<'_> {
         }
     }
 
-    fn course(&self, course: &case::Course) -> Course {
+    fn course(&self, step: &Step, course: &case::Course) -> Course {
         match course {
+            case::Course::Ramp if step.dynamics.is_some() => Course::Table(vec![[0.0, 1.0]]),
             case::Course::Ramp => Course::Ramp,
             case::Course::Table(table) => Course::Table(table.clone()),
             case::Course::Amplitude(name) => {

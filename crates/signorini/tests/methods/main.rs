@@ -230,6 +230,7 @@ fn press_and_slide(head: &[NodeId], flat: bool) -> Vec<StepPart> {
             count_max: 100,
         },
         nonlinear: true,
+        scheme: None,
         changes: vec![Change::Prescribe(Target::Nodes(head.to_vec()), motions)],
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -39,6 +39,7 @@ impl Builder<'_> {
             constants: constants.unwrap_or_default(),
             own: fields.text_if(OWN),
             density: fields.number_if("density"),
+            damping: fields.table("damping").number("mass"),
             expansion: fields.has("expansion").then(|| self.expansion(expansion)),
             plasticity,
             model,
@@ -202,6 +203,7 @@ impl Builder<'_> {
             "at_nodes",
             "area",
             "strain",
+            "mass_matrix",
         ];
         let wrong = if rigid {
             &of_solids[..]
@@ -258,6 +260,11 @@ impl Builder<'_> {
             },
             area: fields.number_if("area"),
             small_strain: fields.text("strain").value == "small",
+            mass_matrix: match fields.text("mass_matrix").value.as_str() {
+                "consistent" => MassMatrix::Consistent,
+                "lumped" => MassMatrix::Lumped,
+                _ => MassMatrix::Auto,
+            },
             rigid,
             reference: fields.text_if("reference"),
             groups,

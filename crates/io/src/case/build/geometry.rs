@@ -10,6 +10,37 @@ use super::builder::Builder;
 use crate::diagnostic::{Place, Spanned, codes};
 
 impl Builder<'_> {
+    /// Velocities of parts at the start.
+    pub(super) fn velocities_at(&mut self, initial: Fields<'_>) -> Vec<VelocityAt> {
+        let tables = initial.tables("velocity").into_iter();
+        let at = tables.map(|(fields, place)| VelocityAt {
+            on: fields.text("on"),
+            velocity: self.vector_within(fields, "v").unwrap_or_default(),
+            spin: self.spin(fields),
+            about: self.vector(fields, "about").unwrap_or_default(),
+            place,
+        });
+        at.collect()
+    }
+
+    /// An angular velocity: a number in the plane.
+    fn spin(&mut self, fields: Fields<'_>) -> [f64; 3] {
+        let (is_plane, place) = (self.space.ndim() == 2, fields.place("omega"));
+        let fault = match (fields.number_if("omega"), is_plane) {
+            (Some(number), true) if self.space != Space::Axisymmetric => {
+                return [0.0, 0.0, number.value];
+            }
+            (None, false) => return self.vector(fields, "omega").unwrap_or_default(),
+            (None, true) if !fields.has("omega") => return [0.0; 3],
+            (Some(_), false) => "write a vector:  omega = [x, y, z]",
+            (None, true) => "write a number:  omega = ",
+            (Some(_), true) => "bodies of revolution do not turn",
+        };
+        let message = "`omega` does not go with the dimension of the model";
+        self.error(&codes::CONTRADICTION, message, &place, fault);
+        [0.0; 3]
+    }
+
     pub(super) fn model(&mut self, fields: Fields<'_>) -> Model {
         let word = fields.text("space");
         let space = space(&word.value);
@@ -326,6 +357,17 @@ pub(super) fn at_points(fields: Fields<'_>, key: &str) -> Vec<AtPoint> {
 pub(super) fn thicknesses_at(root: &Fields<'_>) -> Vec<ThicknessAt> {
     let tables = root.tables("thickness").into_iter();
     let at = tables.map(|(fields, place)| ThicknessAt {
+        on: fields.text("on"),
+        value: fields.number("value"),
+        place,
+    });
+    at.collect()
+}
+
+/// Masses at nodes.
+pub(super) fn masses_at(root: &Fields<'_>) -> Vec<MassAt> {
+    let tables = root.tables("mass").into_iter();
+    let at = tables.map(|(fields, place)| MassAt {
         on: fields.text("on"),
         value: fields.number("value"),
         place,

@@ -7,6 +7,9 @@ use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use signorini_vocabulary::Chosen;
 
+/// What is left of the highest frequencies, where a step says nothing.
+const RHO_INF: f64 = 0.8;
+
 impl Builder<'_> {
     pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
         Amplitude {
@@ -46,6 +49,31 @@ impl Builder<'_> {
         table
     }
 
+    /// How a dynamic step goes through time.
+    fn dynamics(&mut self, fields: Fields<'_>) -> Option<Dynamics> {
+        if fields.text("kind").value != "dynamic" {
+            if fields.has("dynamics") {
+                self.error(
+                    &codes::CONTRADICTION,
+                    "`dynamics` means nothing in a static step",
+                    &fields.place("dynamics"),
+                    "delete it, or write  kind = \"dynamic\"",
+                );
+            }
+            return None;
+        }
+        let table = fields.table("dynamics");
+        let rho_inf = table.number_if("rho_inf");
+        let contact_mass = table.text("contact_mass");
+        Some(Dynamics {
+            method: match table.number_if("alpha") {
+                Some(alpha) => DynamicMethod::HilberHughesTaylor(alpha.value),
+                None => DynamicMethod::GeneralizedAlpha(rho_inf.map_or(RHO_INF, |rho| rho.value)),
+            },
+            redistributed: Spanned::new(contact_mass.value == "redistributed", contact_mass.place),
+        })
+    }
+
     pub(super) fn step(&mut self, fields: Fields<'_>, place: Place) -> Step {
         let duration = fields
             .number_if("duration")
@@ -57,6 +85,7 @@ impl Builder<'_> {
                 "nonlinear" => Geometry::Nonlinear,
                 _ => Geometry::Auto,
             },
+            dynamics: self.dynamics(fields),
             duration,
             increments: self.increments(fields, duration),
             fixes: fields

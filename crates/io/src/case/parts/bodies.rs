@@ -61,6 +61,8 @@ pub struct Material {
     pub own: Option<Name>,
     /// Density (mass per volume).
     pub density: Option<Spanned<f64>>,
+    /// Viscous forces over mass and velocity (1/time), in dynamic steps.
+    pub damping: f64,
     /// Thermal expansion.
     pub expansion: Option<Expansion>,
     /// Yielding and hardening.
@@ -165,10 +167,50 @@ pub struct Body {
     pub area: Option<Spanned<f64>>,
     /// Whether strains of bars are small in all steps.
     pub small_strain: bool,
+    /// Where its mass is in dynamic steps.
+    pub mass_matrix: MassMatrix,
     /// Whether it moves as a whole.
     pub rigid: bool,
     /// The reference a rigid body moves with; none: a point of its own, in the mean of its nodes.
     pub reference: Option<Name>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Where the mass of a body is in dynamic steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MassMatrix {
+    /// As the method of the step wants it: consistent in implicit ones.
+    #[default]
+    Auto,
+    /// Between the nodes of elements.
+    Consistent,
+    /// At nodes.
+    Lumped,
+}
+
+/// A mass at each of some nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MassAt {
+    /// The nodes.
+    pub on: Name,
+    /// The mass at each.
+    pub value: f64,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Velocities of some nodes at the start: those of a rigid motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VelocityAt {
+    /// The nodes.
+    pub on: Name,
+    /// The velocity at `about`.
+    pub velocity: [f64; 3],
+    /// The angular velocity (radian per time).
+    pub spin: [f64; 3],
+    /// A point of the axis of the angular velocity.
+    pub about: [f64; 3],
     /// Where it was written.
     pub place: Place,
 }

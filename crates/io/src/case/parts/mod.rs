@@ -67,6 +67,10 @@ pub struct Case {
     pub initial_temperature: Option<Spanned<f64>>,
     /// Temperatures of parts at the start; of several that name a node the last holds.
     pub initial_temperatures: Vec<TemperatureAt>,
+    /// Velocities of parts at the start; of several that name a node the last holds.
+    pub initial_velocities: Vec<VelocityAt>,
+    /// Masses at nodes.
+    pub masses: Vec<MassAt>,
     /// Stress without strain at integration points, at the start.
     pub initial_stress: Vec<AtPoint>,
     /// Strain without stress at integration points, at the start.

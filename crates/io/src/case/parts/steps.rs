@@ -43,6 +43,8 @@ pub struct Step {
     pub name: Name,
     /// Whether displacements are small.
     pub geometry: Geometry,
+    /// How it goes through time, where inertia counts.
+    pub dynamics: Option<Dynamics>,
     /// How long it takes (time of the user's choice).
     pub duration: f64,
     /// How it is cut into increments.
@@ -71,6 +73,24 @@ pub struct Step {
     pub place: Place,
 }
 
+/// How a step with inertia goes through time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dynamics {
+    /// The numbers of the method.
+    pub method: DynamicMethod,
+    /// Whether elements that touch a side of a contact give their mass to nodes off it.
+    pub redistributed: Spanned<bool>,
+}
+
+/// A method to go through time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DynamicMethod {
+    /// The generalized-α method, with the spectral radius of the highest frequencies.
+    GeneralizedAlpha(f64),
+    /// The method of Hilber, Hughes and Taylor, with its α.
+    HilberHughesTaylor(f64),
+}
+
 impl Step {
     /// A step in which nothing changes: one increment of the duration 1.
     #[must_use]
@@ -78,6 +98,7 @@ impl Step {
         Self {
             name,
             geometry: Geometry::Auto,
+            dynamics: None,
             duration: 1.0,
             increments: Increments::Count(1),
             fixes: Vec::new(),

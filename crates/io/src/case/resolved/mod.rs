@@ -13,7 +13,7 @@ use super::parts::*;
 use super::vocabulary::Vocabulary;
 use contact::{contact, general};
 use model::{
-    body, constraint, initial, local_axes, material, mesh, model, orientation, reference,
+    body, constraint, initial, local_axes, mass, material, mesh, model, orientation, reference,
     set_content, spring, thickness,
 };
 use run::{checkpoint, expectation, output, solver};
@@ -69,6 +69,7 @@ fn tree(case: &Case) -> Entries {
         ),
         ("body", tables(&case.bodies, body)),
         ("thickness", tables(&case.thicknesses, thickness)),
+        ("mass", tables(&case.masses, mass)),
         ("spring", tables(&case.springs, spring)),
         ("surface", tables(&case.surfaces, surface)),
         ("contact", contacts(case)),

@@ -126,6 +126,25 @@ pub(super) fn thickness(one: &ThicknessAt) -> Entries {
     vec![("on", (&one.on.value).into()), ("value", one.value.into())]
 }
 
+pub(super) fn mass(one: &MassAt) -> Entries {
+    vec![("on", (&one.on.value).into()), ("value", one.value.into())]
+}
+
+fn velocity(one: &VelocityAt, plane: bool) -> Value {
+    let omega = match plane {
+        true => one.spin[2].into(),
+        false => (&one.spin).into(),
+    };
+    let mut entries = vec![
+        ("on", (&one.on.value).into()),
+        ("v", (&one.velocity).into()),
+    ];
+    if one.spin != [0.0; 3] {
+        entries.extend([("omega", omega), ("about", (&one.about).into())]);
+    }
+    Value::Table(entries)
+}
+
 pub(super) fn initial(case: &Case) -> Entries {
     let row = |at: &AtPoint| {
         let number = [Value::from(at.element), Value::from(at.point)].into_iter();
@@ -143,6 +162,12 @@ pub(super) fn initial(case: &Case) -> Entries {
         };
         let all = case.initial_temperatures.iter().map(at);
         entries.push(("at", Value::List(all.collect())));
+    }
+    if !case.initial_velocities.is_empty() {
+        let plane = case.model.space.ndim() == 2;
+        let all = case.initial_velocities.iter();
+        let all = all.map(|one| velocity(one, plane));
+        entries.push(("velocity", Value::List(all.collect())));
     }
     for (name, points) in [
         ("stress", &case.initial_stress),
@@ -171,6 +196,10 @@ pub(super) fn material(one: &Material) -> Entries {
             .as_ref()
             .map(|density| ("density", density.value.into())),
     );
+    if one.damping != 0.0 {
+        let damping = vec![("mass", one.damping.into())];
+        entries.push(("damping", Value::Table(damping)));
+    }
     entries.extend(one.expansion.as_ref().map(|expansion| {
         let alpha = match expansion.alpha.as_slice() {
             [[_, alpha]] => (*alpha).into(),
@@ -289,7 +318,16 @@ pub(super) fn body(body: &Body) -> Entries {
     ]);
     entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));
     let strain = if body.small_strain { "small" } else { "auto" };
-    entries.extend([("strain", strain.into()), ("rigid", false.into())]);
+    let mass_matrix = match body.mass_matrix {
+        MassMatrix::Auto => "auto",
+        MassMatrix::Consistent => "consistent",
+        MassMatrix::Lumped => "lumped",
+    };
+    entries.extend([
+        ("strain", strain.into()),
+        ("mass_matrix", mass_matrix.into()),
+        ("rigid", false.into()),
+    ]);
     entries
 }
 

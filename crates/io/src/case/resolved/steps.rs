@@ -25,7 +25,15 @@ pub(super) fn step(step: &Step) -> Entries {
     };
     let mut entries = vec![
         ("name", (&step.name.value).into()),
-        ("kind", "static".into()),
+        (
+            "kind",
+            (if step.dynamics.is_some() {
+                "dynamic"
+            } else {
+                "static"
+            })
+            .into(),
+        ),
         ("geometry", geometry.into()),
         ("duration", step.duration.into()),
         ("increments", increments(&step.increments)),
@@ -45,6 +53,19 @@ pub(super) fn step(step: &Step) -> Entries {
         ("deactivate", tables(&step.deactivations, deactivation)),
         ("temperature", tables(&step.temperatures, temperature)),
     ];
+    entries.extend(step.dynamics.as_ref().map(|dynamics| {
+        let number = match dynamics.method {
+            DynamicMethod::GeneralizedAlpha(rho_inf) => ("rho_inf", rho_inf.into()),
+            DynamicMethod::HilberHughesTaylor(alpha) => ("alpha", alpha.into()),
+        };
+        let contact_mass = match *dynamics.redistributed {
+            true => "redistributed",
+            false => "as-is",
+        };
+        let method = ("method", "generalized-alpha".into());
+        let mass = ("contact_mass", contact_mass.into());
+        ("dynamics", Value::Table(vec![method, number, mass]))
+    }));
     entries.extend(step.prints.as_ref().map(|prints| {
         // an empty list says that earlier ones end
         let none = || list(Vec::<Value>::new());

@@ -11,6 +11,7 @@ pub(super) static MATERIAL: Table = Table {
             .required()
             .hints(&["law", "type"]),
         key("density", POSITIVE, "mass per volume").hints(&["rho"]),
+        key("damping", Shape::Table(&DAMPING), DAMPING.doc),
         key("expansion", Shape::Table(&EXPANSION), EXPANSION.doc).hints(&["thermal_expansion"]),
         key("plasticity", Shape::Table(&PLASTICITY), PLASTICITY.doc).hints(&[
             "plastic",
@@ -18,6 +19,18 @@ pub(super) static MATERIAL: Table = Table {
             "hardening",
         ]),
     ],
+    rules: &[],
+};
+static DAMPING: Table = Table {
+    heading: "damping",
+    doc: "viscous forces in dynamic steps",
+    keys: &[key(
+        "mass",
+        NOT_NEGATIVE,
+        "force over mass and velocity (1/time); motions of the body as a whole are slowed, too",
+    )
+    .required()
+    .hints(&["alpha"])],
     rules: &[],
 };
 static EXPANSION: Table = Table {
@@ -141,6 +154,12 @@ pub(super) static BODY: Table = Table {
             "strain",
             Shape::Choice(&[word("auto"), word("small")]),
             "of bars: as large as their step has them, or small in all steps",
+        )
+        .or(Default::Text("auto")),
+        key(
+            "mass_matrix",
+            Shape::Choice(&[word("auto"), word("consistent"), word("lumped")]),
+            "where its mass is in dynamic steps: between the nodes of elements, or at these; auto: consistent",
         )
         .or(Default::Text("auto")),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
@@ -325,3 +344,15 @@ const COMPONENT: Shape = Shape::Choice(&[
     word("ry"),
     word("rz"),
 ]);
+
+pub(super) static MASS: Table = Table {
+    heading: "[[mass]]",
+    doc: "masses at nodes, in dynamic steps",
+    keys: &[
+        key("on", Shape::Text, "the set or group")
+            .required()
+            .hints(&["set", "group", "nodes"]),
+        key("value", POSITIVE, "the mass at each of its nodes").required(),
+    ],
+    rules: &[],
+};

@@ -170,6 +170,11 @@ pub(super) static INITIAL: Table = Table {
         ),
         key("at", Shape::Tables(&INITIAL_AT), INITIAL_AT.doc),
         key(
+            "velocity",
+            Shape::Tables(&INITIAL_VELOCITY),
+            INITIAL_VELOCITY.doc,
+        ),
+        key(
             "stress",
             POINTS,
             "stress without strain at integration points, rows [element, point, xx, yy, zz, xy, xz, yz]",
@@ -181,7 +186,13 @@ pub(super) static INITIAL: Table = Table {
         )
         .hints(&["plastic_strain"]),
     ],
-    rules: &[Rule::AtLeastOne(&["temperature", "at", "stress", "strain"])],
+    rules: &[Rule::AtLeastOne(&[
+        "temperature",
+        "at",
+        "velocity",
+        "stress",
+        "strain",
+    ])],
 };
 
 pub(super) static THICKNESS: Table = Table {
@@ -194,6 +205,32 @@ pub(super) static THICKNESS: Table = Table {
         key("value", POSITIVE, "the thickness there (length)").required(),
     ],
     rules: &[],
+};
+
+static INITIAL_VELOCITY: Table = Table {
+    heading: "[[initial.velocity]]",
+    doc: "velocities at the start of the first step, if it is dynamic; of several that name a node the last holds",
+    keys: &[
+        key("on", Shape::Text, "the set or group")
+            .required()
+            .hints(&["set", "group"]),
+        key(
+            "v",
+            VECTOR,
+            "velocity; of the point `about`, where there is an `omega`",
+        )
+        .hints(&["velocity"]),
+        key(
+            "omega",
+            Shape::Either(&[ANY, VECTOR]),
+            "angular velocity (radian/time); a number in the plane",
+        ),
+        key("about", VECTOR, "a point of its axis; absent: the origin"),
+    ],
+    rules: &[
+        Rule::AtLeastOne(&["v", "omega"]),
+        Rule::Needs("about", "omega"),
+    ],
 };
 
 static INITIAL_AT: Table = Table {

@@ -27,10 +27,11 @@ pub(super) static STEP: Table = Table {
         key("name", Shape::Text, "its name, in results and messages").required(),
         key(
             "kind",
-            Shape::Choice(&[word("static")]),
-            "the kind of analysis",
+            Shape::Choice(&[word("static"), word("dynamic")]),
+            "the kind of analysis: equilibrium, or a motion in time with inertia",
         )
         .or(Default::Text("static")),
+        key("dynamics", Shape::Table(&DYNAMICS), DYNAMICS.doc),
         key(
             "geometry",
             Shape::Choice(&[word("auto"), word("linear"), word("nonlinear")]),
@@ -69,6 +70,46 @@ pub(super) static STEP: Table = Table {
         key("print", Shape::Tables(&PRINT), PRINT.doc).hints(&["table", "dat"]),
     ],
     rules: &[],
+};
+
+static DYNAMICS: Table = Table {
+    heading: "dynamics",
+    doc: "how a dynamic step goes through time",
+    keys: &[
+        key(
+            "method",
+            Shape::Choice(&[word("generalized-alpha")]),
+            "implicit, of second order",
+        )
+        .or(Default::Text("generalized-alpha")),
+        key(
+            "rho_inf",
+            Shape::Number(Bounds {
+                from: Some(0.0),
+                to: Some(1.0),
+                ..FREE
+            }),
+            "what is left of the highest frequencies after an increment, from 1, all, to 0; absent: 0.8",
+        )
+        .hints(&["rho", "spectral_radius"]),
+        key(
+            "alpha",
+            Shape::Number(Bounds {
+                from: Some(-1.0 / 3.0),
+                to: Some(0.0),
+                ..FREE
+            }),
+            "in its place, that of Hilber, Hughes and Taylor; 0: the trapezoidal rule of Newmark",
+        ),
+        key(
+            "contact_mass",
+            Shape::Choice(&[word("as-is"), word("redistributed")]),
+            "redistributed: elements with nodes on a side of a contact give their mass to their other nodes; impacts then neither \
+             flicker nor lose energy",
+        )
+        .or(Default::Text("as-is")),
+    ],
+    rules: &[Rule::AtMostOne(&["rho_inf", "alpha"])],
 };
 const INCREMENTS: &[Shape] = &[COUNT, Shape::Table(&INCREMENTS_TABLE)];
 

@@ -1,6 +1,6 @@
 //! The whole case.
 
-use super::bodies::{BODY, CONSTRAINT, MATERIAL, NAMED_ORIENTATION, SPRING};
+use super::bodies::{BODY, CONSTRAINT, MASS, MATERIAL, NAMED_ORIENTATION, SPRING};
 use super::contact::CONTACT;
 use super::geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET, THICKNESS};
 use super::run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
@@ -28,6 +28,7 @@ pub(super) static CASE: Table = Table {
         key("orientation", Shape::Named(&NAMED_ORIENTATION), NAMED_ORIENTATION.doc).hints(&["orientations"]),
         key("body", Shape::Tables(&BODY), BODY.doc).hints(&["bodies", "part", "section"]),
         key("thickness", Shape::Tables(&THICKNESS), THICKNESS.doc),
+        key("mass", Shape::Tables(&MASS), MASS.doc).hints(&["masses"]),
         key("surface", Shape::Tables(&SURFACE), SURFACE.doc).hints(&["surfaces"]),
         key("contact", Shape::Tables(&CONTACT), CONTACT.doc).hints(&["contacts", "pair", "interface"]),
         key("spring", Shape::Tables(&SPRING), SPRING.doc).hints(&["springs"]),

@@ -2,6 +2,7 @@
 
 mod asked;
 mod audited;
+mod carried;
 mod coupled;
 mod drift;
 mod freedom;

@@ -1,5 +1,6 @@
 //! Rows, and the forces on them.
 
+use super::carried::{Ways, carry_on};
 use super::{
     Answer, Asked, Contact, Interface, Judged, Lambda, Laws, Order, Participant, RowOrder, Rows,
     Scratch, Sink, State, TermError, Wanted,
@@ -97,6 +98,11 @@ impl Interface {
     ) -> Result<(), TermError> {
         let parts = &self.parts;
         let laws = self.laws();
+        let order = match trial.between {
+            // a gap at the end of the increment takes weights
+            Some(_) => order.max(RowOrder::Gradient),
+            None => order,
+        };
         let wanted = Wanted {
             order,
             slip: laws.slips() && order != RowOrder::Gap,
@@ -111,6 +117,11 @@ impl Interface {
             .discretization
             .row(row, &parts.pair, &trial.placement(), &links, wanted, rows)
             .map_err(|e| self.failed(&e))?;
+        if let Some(between) = &trial.between {
+            let mut ways = std::mem::take(rows.scratch.of::<Ways>());
+            carry_on(rows, between, [wanted.slip, laws.bond], &mut ways);
+            *rows.scratch.of::<Ways>() = ways;
+        }
         let shift = self.shift(row, trial.time);
         let held = if wanted.slip && self.nmultiplier() > 1 && !laws.bond {
             self.held_directions(row, rows)

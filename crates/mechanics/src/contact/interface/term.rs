@@ -21,7 +21,10 @@ impl Term for Interface {
         let rubs = self.phase().is_some_and(|p| p.friction.is_some());
         // multipliers that are tractions keep their form where there is no friction for a while
         let tractions = self.nmultiplier() > 1 && self.parts.bond.is_none();
-        let is_symmetric = self.parts.discretization.capabilities().is_symmetric;
+        let capabilities = self.parts.discretization.capabilities();
+        // with inertia, weights that turn are those of one state, and gaps those of another
+        let turns = self.step.scheme.is_some() && !capabilities.keeps();
+        let is_symmetric = capabilities.is_symmetric && !turns;
         let symmetry = if rubs || tractions || !is_symmetric {
             Symmetry::Unsymmetric
         } else if self.nmultiplier() > 0 {
@@ -30,6 +33,7 @@ impl Term for Interface {
             Symmetry::Definite
         };
         Properties {
+            to_end: true,
             has_saddle: self.parts.bond.is_none() && self.nmultiplier() > 0,
             ..Properties::new(symmetry, Part::Interface)
         }

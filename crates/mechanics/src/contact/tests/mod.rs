@@ -2,6 +2,7 @@
 //! balance, energy and renumbering.
 
 mod capabilities;
+mod carried;
 mod dual;
 mod held;
 mod interface;

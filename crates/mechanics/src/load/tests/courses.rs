@@ -38,6 +38,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                 duration,
                 increments: Increments::Fixed(4),
                 nonlinear,
+                scheme: None,
                 changes: if number == 0 {
                     vec![support]
                 } else {

@@ -2,6 +2,7 @@
 
 mod courses;
 mod derivatives;
+mod mass;
 mod model;
 mod resultants;
 mod rigid;

@@ -39,6 +39,7 @@ fn step_with(changes: Vec<Change>, loads: Vec<Acting>, nonlinear: bool) -> StepP
         duration: 1.0,
         increments: Increments::Fixed(4),
         nonlinear,
+        scheme: None,
         changes,
         loads: loads.into_iter().enumerate().map(part).collect(),
         contacts: Vec::new(),
@@ -376,6 +377,7 @@ fn bars_weigh_their_cross_section_times_their_length() {
         kind: BodyKind::Truss {
             material: Box::new(NeoHookean::new(E, NU)),
             density: Some(3.0),
+            mass: Default::default(),
             area: 0.2,
             small: false,
         },

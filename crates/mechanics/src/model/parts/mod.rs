@@ -9,7 +9,7 @@ use crate::load::{Acting, Course};
 use crate::material::Material;
 use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes};
 use crate::solve::{Increments, Motion};
-use crate::system::{CellChange, Idealisation};
+use crate::system::{CellChange, Idealisation, Scheme};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
@@ -33,6 +33,10 @@ pub struct Parts<'a> {
     pub contacts: Vec<ContactPart>,
     /// Temperature of each node at the start; empty where no step and no material speaks of temperatures.
     pub temperature: Vec<f64>,
+    /// Velocity of each node of the mesh at the start; empty where nothing moves.
+    pub velocity: Vec<Vec3>,
+    /// Masses at nodes.
+    pub masses: Vec<(NodeId, f64)>,
     /// The steps.
     pub steps: Vec<StepPart>,
     /// Whether viscous forces hold bodies that nothing but contact stops.
@@ -58,6 +62,8 @@ impl<'a> Parts<'a> {
             constraints: Vec::new(),
             contacts: Vec::new(),
             temperature: Vec::new(),
+            velocity: Vec::new(),
+            masses: Vec::new(),
             steps: Vec::new(),
             stabilize: true,
             hold_free: false,
@@ -65,6 +71,25 @@ impl<'a> Parts<'a> {
             traction_tol: 1e-7,
         }
     }
+}
+
+/// Where the mass of bodies is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MassMatrix {
+    /// Between the nodes, as shape functions have it.
+    #[default]
+    Consistent,
+    /// At the nodes.
+    Lumped,
+}
+
+/// What a body does by its mass in a step with inertia, besides its density.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MassPart {
+    /// Where the mass is.
+    pub matrix: MassMatrix,
+    /// Viscous forces over mass and velocity.
+    pub damping: f64,
 }
 
 /// A body.
@@ -87,6 +112,8 @@ pub enum BodyKind {
         later: Vec<(usize, Box<dyn Material>)>,
         /// Mass per volume, where it is known.
         density: Option<f64>,
+        /// What else it does by its mass.
+        mass: MassPart,
         /// Full or reduced integration.
         integration: Integration,
         /// What is done against locking.
@@ -112,6 +139,8 @@ pub enum BodyKind {
         material: Box<dyn Material>,
         /// Mass per volume, where it is known.
         density: Option<f64>,
+        /// What else it does by its mass.
+        mass: MassPart,
         /// Cross-section (area).
         area: f64,
         /// Whether strains are small in all steps.
@@ -129,6 +158,7 @@ impl BodyKind {
             material,
             later: Vec::new(),
             density: None,
+            mass: MassPart::default(),
             integration: Integration::default(),
             locking: Locking::default(),
             space: None,
@@ -358,6 +388,8 @@ pub struct StepPart {
     pub increments: Increments,
     /// Whether displacements may be large.
     pub nonlinear: bool,
+    /// How it goes through time, where inertia counts.
+    pub scheme: Option<Scheme>,
     /// Changes of supports and motions; everything else stays.
     pub changes: Vec<Change>,
     /// Loads that begin or change here.
@@ -379,6 +411,7 @@ impl StepPart {
             duration: 1.0,
             increments,
             nonlinear: true,
+            scheme: None,
             changes: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),

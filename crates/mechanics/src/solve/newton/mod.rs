@@ -14,6 +14,7 @@ mod course;
 mod failure;
 mod goal;
 mod iterate;
+mod middle;
 mod scale;
 mod start;
 mod step;
@@ -30,6 +31,7 @@ use crate::system::{
 };
 use course::{Course, Released};
 use iterate::{Iterate, Next, Why, is_small};
+use middle::{Middle, seen};
 use scale::{Judgement, ROUND_OFF, Sizes, Tolerance};
 
 /// Whether and how steps are shortened.
@@ -95,6 +97,8 @@ pub(super) struct Newton {
     has_tangent: bool,
     /// The state of the iterate.
     pub trial: State,
+    /// Where inertia counts, what terms see of it.
+    between: Option<Middle>,
     before: State,
     du: Vec<f64>,
     /// Dofs at which motions without stiffness are held by the present tangent, each with the stiffness that does.
@@ -158,6 +162,7 @@ impl Newton {
             assembled: None,
             has_tangent: false,
             trial: state.clone(),
+            between: None,
             before: state,
             du: Vec::new(),
             held: Vec::new(),
@@ -189,6 +194,7 @@ impl Newton {
         for term in &mut system.terms {
             term.begin(&phase, base)?;
         }
+        self.between = Middle::new(self.step.scheme.as_ref(), &system.layout, base);
         self.set_negligible(system, self.scale.mean_force());
         self.assembler.begin_increment(&system.terms);
         self.equations.forget();
@@ -248,7 +254,7 @@ impl Newton {
         let judgement = self.judge(system);
         self.set_negligible(system, judgement.q[Layout::FORCES]);
         course.reached(&judgement);
-        let verdicts = verdicts(system, &self.trial);
+        let verdicts = self.verdicts(system);
         Ok(Iterate {
             iterations: course.iterations,
             step: course.step,
@@ -285,7 +291,7 @@ impl Newton {
         (self.assembled, self.has_tangent) = (None, false);
         let mut first: Option<Released> = None;
         for term in system.adaptive() {
-            let (why, nodes, solve) = match term.converged(&self.trial)? {
+            let (why, nodes, solve) = match term.converged(self.seen())? {
                 Verdict::Settled => continue,
                 Verdict::Repeat { why, nodes, .. } => (why, nodes, false),
                 Verdict::Renewed { why } => (why, Vec::new(), true),
@@ -300,8 +306,26 @@ impl Newton {
     }
 
     /// What was found out about the trial state holds no more.
-    const fn moved(&mut self) {
+    fn moved(&mut self) {
         (self.looked, self.assembled) = (false, None);
+        if let Some(between) = &mut self.between {
+            between.follow(&self.trial);
+        }
+    }
+
+    /// The state between the last accepted one and the trial where terms were evaluated, where inertia counts.
+    pub fn between(&self) -> Option<&State> {
+        self.between.as_ref().map(|of| &of.state)
+    }
+
+    /// The state where terms are evaluated.
+    fn seen(&self) -> &State {
+        seen(&self.between, &self.trial)
+    }
+
+    /// What all terms say of the iterate.
+    fn verdicts(&self, system: &mut System) -> Verdicts {
+        verdicts(system, self.seen())
     }
 
     /// Takes all terms back to their accepted history.
@@ -337,7 +361,8 @@ impl Newton {
     /// Lets all terms look at the trial state.
     fn look(&mut self, system: &mut System, next: Order) -> Result<(), TermError> {
         for term in system.adaptive() {
-            self.coupled_more |= term.prepare(&self.trial, next)?;
+            let state = seen(&self.between, &self.trial);
+            self.coupled_more |= term.prepare(state, next)?;
         }
         (self.looked, self.assembled) = (true, None);
         Ok(())
@@ -354,7 +379,7 @@ impl Newton {
             &system.layout,
             &system.elimination,
             &system.terms,
-            &self.trial,
+            seen(&self.between, &self.trial),
             order,
             &mut self.assembly,
         )?;

@@ -1,8 +1,10 @@
 //! Where an increment starts.
 
 use super::goal::{Goal, Start};
-use super::{Newton, verdicts};
+use super::{Failure, Newton};
+use crate::solve::equations::{Accuracy, Factor};
 use crate::system::{Dof, Order, State, System};
+use signorini_linear::EXACT;
 
 impl Newton {
     /// Sets up the trial state, extrapolated where that is of use.
@@ -23,7 +25,7 @@ impl Newton {
         self.extrapolate(system, base, goal, guess);
         // few choices change, as a rule
         let is_seen = self.prepare(system, Order::Tangent).is_ok();
-        let verdicts = verdicts(system, &self.trial);
+        let verdicts = self.verdicts(system);
         // a tangent where the iteration goes on from here
         let order = if verdicts.few {
             Order::Tangent
@@ -60,6 +62,42 @@ impl Newton {
             changes: 0,
             extrapolated: better,
         }
+    }
+
+    /// Sets the accelerations of all nodes at an accepted state where a step with inertia begins: those that forces there give
+    /// to masses, `M a = −r`, with the multipliers of what is joined and of contacts that are closed.
+    pub fn accelerate(&mut self, system: &mut System, state: &mut State) -> Result<(), Failure> {
+        self.between = None;
+        self.trial.clone_from(state);
+        self.assembler.begin_increment(&system.terms);
+        self.moved();
+        self.prepare(system, Order::Tangent)?;
+        (self.assembled, self.has_tangent) = (None, false);
+        let (layout, elimination) = (&system.layout, &system.elimination);
+        self.assembler.assemble_mass(
+            layout,
+            elimination,
+            &system.terms,
+            &self.trial,
+            &mut self.assembly,
+        )?;
+        self.du.clear();
+        self.du.resize(layout.ndof(), 0.0);
+        let accuracy = Accuracy::Residual(EXACT);
+        let (assembler, assembly) = (&self.assembler, &self.assembly);
+        self.equations.forget();
+        let solved = self.equations.solve(
+            assembler,
+            assembly,
+            false,
+            Factor::New,
+            accuracy,
+            &mut self.du,
+        );
+        solved.map_err(|source| self.linear_failure(source))?;
+        system.accelerate(state, &self.du);
+        system.reject();
+        Ok(())
     }
 
     /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.

@@ -2,6 +2,7 @@
 
 use super::course::Course;
 use super::iterate::{Iterate, LastStep, is_small};
+use super::middle::seen;
 use super::scale::Sizes;
 use super::{Failure, LineSearch, Newton, at};
 use crate::solve::equations::{Accuracy, Factor};
@@ -105,14 +106,14 @@ impl Newton {
         if self.assembler.is_constant() {
             return Ok(StartStiffness::Always);
         }
-        if self.assembler.is_at_start(&system.terms, &self.trial) {
+        if self.assembler.is_at_start(&system.terms, self.seen()) {
             return Ok(StartStiffness::Next);
         }
         let bulk = self.assembler.bulk_at_start(
             &system.layout,
             &system.elimination,
             &system.terms,
-            &self.trial,
+            seen(&self.between, &self.trial),
         );
         bulk.map(StartStiffness::Values)
     }
@@ -218,8 +219,8 @@ impl Newton {
         iterations: usize,
     ) -> Result<f64, Failure> {
         self.before.clone_from(&self.trial);
-        let du = &self.du;
-        let limits = system.choices().map(|t| t.max_step(&self.before, du));
+        let (du, state) = (&self.du, self.seen());
+        let limits = system.choices().map(|t| t.max_step(state, du));
         let first = limits.fold(1.0, f64::min);
         // a prescribed motion is taken whole: the energy before it is another problem's
         if motion || self.settings.line_search == LineSearch::Off {
@@ -231,7 +232,8 @@ impl Newton {
             return self.shorten(system, first, next);
         }
         let slope = self.slope();
-        let start = self.assembler.energy(&system.terms, &self.before)?;
+        let state = seen(&self.between, &self.trial);
+        let start = self.assembler.energy(&system.terms, state)?;
         if let Some(start) = start.filter(|_| slope < 0.0)
             && self
                 .energy_at(system, first, next)
@@ -286,7 +288,8 @@ impl Newton {
     /// The energy after a step of `alpha`; `None` where there is none, or no admissible state.
     fn energy_at(&mut self, system: &mut System, alpha: f64, next: Order) -> Option<f64> {
         self.try_step(system, alpha, next).ok()?;
-        let energy = self.assembler.energy(&system.terms, &self.trial);
+        let state = seen(&self.between, &self.trial);
+        let energy = self.assembler.energy(&system.terms, state);
         energy.ok().flatten().filter(|e| e.is_finite())
     }
 

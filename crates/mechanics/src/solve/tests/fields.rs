@@ -236,6 +236,7 @@ impl Bar {
             body: vec![0; mesh.nnode()],
             between: Vec::new(),
             ncell: vec![cells.len()],
+            velocity: Vec::new(),
             wanted: crate::system::Wanted::default(),
             reference,
         }
@@ -265,6 +266,7 @@ impl Bar {
             duration: 1.0,
             increments: Increments::Fixed(2),
             nonlinear: true,
+            scheme: None,
             prescriptions,
         }
     }

@@ -347,6 +347,7 @@ fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
         body: vec![0; nnode],
         between: Vec::new(),
         ncell: Vec::new(),
+        velocity: Vec::new(),
         wanted: crate::system::Wanted::default(),
     }
 }
@@ -361,6 +362,7 @@ fn step(increments: Increments, prescribed: &[(NodeId, Motion)]) -> Step {
         duration: 1.0,
         increments,
         nonlinear: true,
+        scheme: None,
         prescriptions: prescribed.iter().map(prescription).collect(),
     }
 }

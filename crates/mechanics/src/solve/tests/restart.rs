@@ -55,6 +55,7 @@ fn sliding_block() -> Model {
             duration: 1.0,
             increments,
             nonlinear: true,
+            scheme: None,
             changes,
             loads: Vec::new(),
             contacts: Vec::new(),

@@ -94,6 +94,7 @@ fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
         duration: 1.0,
         increments: Increments::Fixed(increments),
         nonlinear,
+        scheme: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -147,6 +147,7 @@ fn step(changes: Vec<Change>) -> StepPart {
         duration: 1.0,
         increments: Increments::Fixed(1),
         nonlinear: true,
+        scheme: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -1,0 +1,90 @@
+//! Rows between the ends of an increment of a motion with inertia, carried on to its end.
+//!
+//! ```text
+//! γ₁ = g + αf b·Δd        e₁ = e + αf P B Δd                                                     (E7)
+//! q  = (1 − αf) G + αf b + αf (1 − αf) (∂b/∂d)ᵀ Δd                                               (E8)
+//! ```
+//!
+//! The laws see γ₁ and e₁: the gap and the slip that the row has at the end, along what does the work. With q in the place of the
+//! gradient, and `1 − αf` times the derivatives of weights, the stiffness of the kernel is that against the end of the increment. A
+//! contact force that is whole and sees γ₁ does no positive work in closing and opening, whatever the law: what is stored is given
+//! back at most.
+//!
+//! The derivative of e₁ leaves out that of `P B`, which is none where sides are flat.
+
+use crate::contact::row::{Participant, Row, Rows};
+use crate::system::Between;
+use signorini_geometry::tensor::Vec3;
+
+/// Scratch of one thread: Δd of each column.
+#[derive(Default)]
+pub(super) struct Ways(Vec<f64>);
+
+/// Carries the rows of a group on to the end of the increment; `slips` and `bond`: whether rows have a tangential part, and whether
+/// it is the whole way.
+pub(super) fn carry_on(
+    rows: &mut Rows,
+    between: &Between,
+    [slips, bond]: [bool; 2],
+    Ways(ways): &mut Ways,
+) {
+    ways.clear();
+    for participant in rows.participants() {
+        match *participant {
+            Participant::Node(node) => {
+                let way = between.way.get(node as usize).copied();
+                ways.extend(way.unwrap_or_default().to_array());
+            }
+            Participant::Rigid(body) => {
+                let turn = between.turn.get(body as usize).copied();
+                let [way, turn] = turn.unwrap_or_default();
+                ways.extend(way.to_array());
+                ways.extend(turn.to_array());
+            }
+        }
+    }
+    for row in rows.rows_mut() {
+        carry(row, between.alpha_f, [slips, bond], ways);
+    }
+}
+
+fn carry(row: &mut Row, alpha: f64, [slips, bond]: [bool; 2], ways: &[f64]) {
+    let left = 1.0 - alpha;
+    let closes: f64 = row.weights.iter().zip(ways).map(|(b, d)| b * d).sum();
+    row.gap += alpha * closes;
+    let n = ways.len();
+    let has_gradient = row.gradient.len() == n && row.weights.len() == n;
+    if has_gradient {
+        for (g, b) in row.gradient.iter_mut().zip(&row.weights) {
+            *g = left * *g + alpha * b;
+        }
+    }
+    if has_gradient && row.dweights.len() == n * n {
+        for (line, way) in row.dweights.chunks_exact_mut(n).zip(ways) {
+            for (q, d) in row.gradient.iter_mut().zip(line) {
+                *q += alpha * left * *d * way;
+                *d *= left;
+            }
+        }
+    }
+    if slips {
+        carry_slip(row, alpha, bond, ways);
+    }
+}
+
+fn carry_slip(row: &mut Row, alpha: f64, bond: bool, ways: &[f64]) {
+    let (left, normal) = (1.0 - alpha, row.normal);
+    let within = |v: Vec3| if bond { v } else { v - normal * normal.dot(v) };
+    let sliding = &mut row.sliding;
+    let way: Vec3 = sliding
+        .operator
+        .iter()
+        .zip(ways)
+        .map(|(b, d)| *b * *d)
+        .sum();
+    sliding.slip += within(way) * alpha;
+    for (slope, b) in sliding.dslip.iter_mut().zip(&sliding.operator) {
+        *slope = *slope * left + within(*b) * alpha;
+    }
+    sliding.scale_derivatives(left);
+}

@@ -1,0 +1,68 @@
+//! A step begins: terms, unknowns that are prescribed, accelerations.
+
+use super::newton::Failure;
+use super::step::{Prescription, Step};
+use super::stepping::{RunError, Stepper};
+use crate::system::{Phase, StepContext, System};
+
+impl Stepper {
+    /// How a run ends whose step cannot begin.
+    pub(super) fn not_begun(&self, step: &Step, cause: Failure) -> RunError {
+        match cause {
+            Failure::Term(error) => RunError::Term(error),
+            cause => RunError::NotConverged {
+                step: step.name.clone(),
+                increment: self.progress.increment + 1,
+                time: self.progress.time,
+                duration: step.duration,
+                tried: Vec::new(),
+                min: None,
+                cause: Box::new(cause),
+            },
+        }
+    }
+
+    /// Begins a step, or goes on with it.
+    ///
+    /// # Errors
+    /// What a term finds wrong; accelerations that cannot be found.
+    pub(super) fn begin_step(&mut self, system: &mut System, step: &Step) -> Result<(), Failure> {
+        let progress = &mut self.progress;
+        let value = |p: &Prescription| self.state.u.get(p.dof as usize).copied().unwrap_or(0.0);
+        if progress.increment == 0 {
+            progress.origin = step.prescriptions.iter().map(value).collect();
+        }
+        let context = StepContext {
+            number: progress.step,
+            start: progress.step_start,
+            duration: step.duration,
+            nonlinear: step.nonlinear,
+            scheme: step.scheme,
+        };
+        self.state.is_small = !step.nonlinear;
+        let phase = Phase::of_step(context);
+        for term in &mut system.terms {
+            term.begin(&phase, &self.state)?;
+        }
+        self.newton.step = context;
+        let (layout, elimination) = (&system.layout, &system.elimination);
+        let assembler = &mut self.newton.assembler;
+        self.newton.coupled_more |= assembler.begin_step(layout, elimination, &system.terms);
+        let prescribed = &mut self.newton.prescribed;
+        prescribed.clear();
+        prescribed.resize(system.layout.ndof(), false);
+        for p in &step.prescriptions {
+            if let Some(prescribed) = prescribed.get_mut(p.dof as usize) {
+                *prescribed = true;
+            }
+        }
+        for term in system.choices_mut() {
+            term.prescribe(prescribed);
+        }
+        self.newton.analyzed = false;
+        if step.scheme.is_some() && self.progress.increment == 0 {
+            self.newton.accelerate(system, &mut self.state)?;
+        }
+        Ok(())
+    }
+}
