@@ -7,7 +7,7 @@ use super::stabilization;
 use super::step::{Increments, Motion, Sizes, Step};
 use super::work::ExternalWork;
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, State, System, TermError, interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, Order, State, System, TermError, interpolate,
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
@@ -554,6 +554,12 @@ impl Stepper {
 
     /// The trial state becomes the accepted one.
     pub(super) fn accept(&mut self, system: &mut System) -> Result<(), TermError> {
+        if self.newton.between().is_some() {
+            // what terms remember is where the increment ends, not where they were evaluated
+            for term in system.adaptive() {
+                term.prepare(&self.newton.trial, Order::Residual)?;
+            }
+        }
         let (newton, states) = (&self.newton, [&self.state, &self.newton.trial]);
         let residual = &newton.assembly.residual;
         let work = &mut self.progress.work;

@@ -160,3 +160,63 @@ fn meet(text: &str, ndim: usize, place: &str) {
     // nodes that meet lose what they had: with few elements, that is much
     assert!(lost < 0.2, "{place}: {lost}");
 }
+
+/// A block slides on a floor until friction has stopped it: after v²/(2 μ g), and all of its energy is spent in friction.
+#[test]
+fn a_block_that_friction_stops_goes_as_far_as_its_energy_says() {
+    for (method, law) in [
+        ("node-to-segment", "enforcement = { lagrange = {} }"),
+        (
+            "node-to-segment",
+            "enforcement = { penalty = 1e6, per = \"area\" }",
+        ),
+        (
+            "gauss-point",
+            "enforcement = { penalty = 1e6, per = \"area\" }",
+        ),
+    ] {
+        let n = 3;
+        let (mut nodes, mut elements) = (String::new(), String::new());
+        for k in 0..(n + 1) * (n + 1) {
+            let at = |k: usize| k as f64 / n as f64;
+            let (x, y) = (at(k % (n + 1)), at(k / (n + 1)));
+            write!(nodes, "[{}, {x:?}, {y:?}], ", k + 1).unwrap();
+        }
+        for k in 0..n * n {
+            let a = k / n * (n + 1) + k % n + 1;
+            let around = [a, a + 1, a + n + 2, a + n + 1];
+            write!(
+                elements,
+                "{{ id = {}, type = \"quad4\", group = \"b\", nodes = {around:?} }}, ",
+                k + 1
+            )
+            .unwrap();
+        }
+        let faces: Vec<String> = (1..=n).map(|k| format!("[{k}, \"-y\"]")).collect();
+        let text = format!(
+            "[mesh]\nnodes = [{nodes}]\nelements = [{elements}]\n[model]\nspace = \"plane-strain\"\n\
+             [material.m]\nmodel = \"linear-elastic\"\nE = 1e5\nnu = 0.3\ndensity = 1.0\n\
+             [[body]]\ngroup = \"b\"\nmaterial = \"m\"\n[sets]\nfoot = {{ faces = [{}] }}\n\
+             [[surface]]\nname = \"floor\"\nshape = {{ plane = {{ point = [0, 0], normal = [0, 1] }} }}\n\
+             [[contact]]\nname = \"c\"\nsecondary = \"foot\"\nprimary = \"floor\"\nmethod = \"{method}\"\n{law}\n\
+             friction = 0.5\n[initial]\nvelocity = [{{ on = \"b\", v = [1.0, 0.0] }}]\n\
+             [[step]]\nname = \"slide\"\nkind = \"dynamic\"\nduration = 0.3\nincrements = {{ fixed = 300 }}\n\
+             load = [{{ on = \"b\", gravity = [0, -10.0] }}]\n",
+            faces.join(", ")
+        );
+        let done = run(&mut model("slide", &text, &[]));
+        assert!(done.error.is_none(), "{method} {law}: {:?}", done.error);
+        let last = done.frames.last().unwrap();
+        let way = last.displacement[0].x;
+        assert!((way / 0.1 - 1.0).abs() < 5e-3, "{method} {law}: {way}");
+        let energies = last.energies.unwrap();
+        assert!(
+            (energies.friction / 0.5 - 1.0).abs() < 0.02,
+            "{method} {law}: {energies:?}"
+        );
+        assert!(
+            energies.algorithmic().abs() < 0.01,
+            "{method} {law}: {energies:?}"
+        );
+    }
+}
