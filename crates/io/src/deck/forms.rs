@@ -113,13 +113,14 @@ fn form(card: &Statement) -> Option<Form> {
         "PRE-TENSIONSECTION" => each(AT_MOST_ONE, (0, 3), "a direction of three components"),
         "SOLIDSECTION" => each(AT_MOST_ONE, (0, 1), "a thickness or a cross-section"),
         "SURFACEINTERACTION" => each(AT_MOST_ONE, (0, 1), "a thickness"),
-        "STATIC" => each(
+        "STATIC" | "DYNAMIC" => each(
             AT_MOST_ONE,
             (0, 4),
             "initial increment, period, smallest and largest increment",
         ),
         "INITIALCONDITIONS" => match card.peek("TYPE").map(compared).as_deref() {
             Some("TEMPERATURE") => each(SOME, (2, 2), "node or set, temperature"),
+            Some("VELOCITY") => each(SOME, (3, 3), "node or set, component, velocity"),
             Some("STRESS" | "PLASTICSTRAIN") if card.peek("USER").is_none() => {
                 each(SOME, (3, 8), "element, integration point, six components")
             }

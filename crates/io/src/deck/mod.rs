@@ -35,6 +35,7 @@ mod keywords;
 mod load;
 mod material;
 mod model;
+mod motion;
 mod names;
 pub mod oofem;
 mod orientation;

@@ -55,6 +55,7 @@ impl Translation<'_> {
         self.materials();
         self.start_temperature();
         self.at_start();
+        self.velocities();
         self.amplitudes();
         self.sections();
     }
@@ -104,7 +105,7 @@ impl Translation<'_> {
     fn at_start(&mut self) {
         for card in self.cards("INITIALCONDITIONS") {
             let kind = card.get("TYPE").map(compared).unwrap_or_default();
-            if kind == "TEMPERATURE" {
+            if kind == "TEMPERATURE" || kind == "VELOCITY" {
                 continue;
             }
             let is_stress = kind == "STRESS";

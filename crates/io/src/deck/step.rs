@@ -159,12 +159,12 @@ impl Translation<'_> {
     }
 
     fn time(&mut self, cards: &[&Statement], step: &mut Step) {
-        let procedures = ["STATIC"];
+        let procedures = ["STATIC", "DYNAMIC"];
         let Some(card) = cards
             .iter()
             .find(|c| procedures.contains(&c.keyword.as_str()))
         else {
-            let known = ["DYNAMIC", "FREQUENCY", "HEATTRANSFER", "VISCO"];
+            let known = ["FREQUENCY", "HEATTRANSFER", "VISCO"];
             // those are reported by their keyword
             if !cards
                 .iter()
@@ -179,6 +179,9 @@ impl Translation<'_> {
             return;
         };
         step.duration = period;
+        if card.keyword == "DYNAMIC" {
+            self.dynamic(card, step);
+        }
         let limit = cards.first().and_then(|head| head.get("INC")).map(compared);
         let limit = limit.and_then(|text| text.parse().ok()).unwrap_or(100);
         step.increments = if card.has("DIRECT") {
@@ -227,7 +230,7 @@ impl Translation<'_> {
         }
     }
 
-    /// Initial increment, period, smallest and largest increment of *STATIC; nothing where they contradict each other,
+    /// Initial increment, period, smallest and largest increment of a procedure; nothing where they contradict each other,
     /// which is reported.
     fn times(&mut self, card: &Statement) -> Option<[f64; 4]> {
         let row = card.rows().next().unwrap_or_default();
@@ -247,7 +250,7 @@ impl Translation<'_> {
             *value = (number > 0.0).then_some(number);
             if number < 0.0 {
                 is_sound = false;
-                let text = format!("the {name} of *STATIC is {}", field.text);
+                let text = format!("the {name} of *{} is {}", card.title, field.text);
                 let remark = "positive; left empty or zero it is chosen by the program";
                 self.error(&codes::OUT_OF_RANGE, text, &field.place(), remark);
             }
@@ -275,8 +278,10 @@ impl Translation<'_> {
             .into_iter()
             .find(|(_, (_, a), (_, b))| exceeds(*a, *b));
         if let Some((at, (name, value), (other, limit))) = wrong {
-            let text =
-                format!("the {name} of *STATIC, {value}, is larger than its {other}, {limit}");
+            let text = format!(
+                "the {name} of *{}, {value}, is larger than its {other}, {limit}",
+                card.title
+            );
             let place = given(at).map_or(card.place.clone(), Field::place);
             let remark = "initial increment, period, smallest, largest increment";
             self.error(&codes::CONTRADICTION, text, &place, remark);
@@ -284,7 +289,8 @@ impl Translation<'_> {
         }
         if exceeds(first, largest) {
             let text = format!(
-                "the initial increment of *STATIC is reduced to its largest one, {largest}"
+                "the initial increment of *{} is reduced to its largest one, {largest}",
+                card.title
             );
             self.note(text, &card.place);
         }

@@ -2,6 +2,7 @@ mod constraints;
 mod contact;
 mod general;
 mod materials;
+mod motion;
 mod sections;
 mod silent;
 mod steps;
