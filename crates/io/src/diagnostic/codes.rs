@@ -446,6 +446,14 @@ codes! {
     ["hold it by [[step.fix]], or prescribe its motion by [[step.move]]", "add the contact that stops it",
      "give the contact that moves it friction", "make it an error:  --strict"]
 
+    ENERGY_ADDED "S0427" Input "a method of going through time that added energy"
+    "The energy of a motion is that at the start and the work of supports and loads, less what friction and damping spend. What \
+     is there is more: where contact flickers, or an increment is far too long, the method of the step adds some, and the forces \
+     are of its making."
+    ["`alpha`, or rho_inf = 1, with hard contact", "increments that are long for what moves fast"]
+    ["let high frequencies go:  dynamics = { rho_inf = 0.8 }", "nodes without mass:  contact_mass = \"redistributed\"",
+     "shorter increments", "make it an error:  --strict"]
+
     FAR_FROM_START "S0431" Input "a contact that slid far in the geometry of the start"
     "A contact whose steps all have linear geometry compares the sides where they were at the start. What touches has moved \
      along the other side by more than a facet since, so that it presses on facets that are no longer opposite."

@@ -358,6 +358,9 @@ pub struct AuditSummary {
     /// the work of loads and supports in each increment.
     #[serde(deserialize_with = "nan::of_number")]
     pub part_viscous: f64,
+    /// The energy that the method of going through time has added at most, over the energy that there is.
+    #[serde(default, deserialize_with = "nan::of_number")]
+    pub part_gained: f64,
     /// Bodies that moved freely and that nothing stopped: their place at the end is one of many.
     #[serde(default)]
     pub unheld: Vec<UnheldEntry>,

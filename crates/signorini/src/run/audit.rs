@@ -37,6 +37,59 @@ pub struct Audit {
     jumped: Option<f64>,
     /// Bodies that moved freely, by their names, until something stops them.
     unheld: BTreeMap<String, Free>,
+    gain: Gain,
+}
+
+/// Energy that the method of going through time has added to a motion with inertia.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Gain {
+    /// The most so far, and when.
+    energy: f64,
+    time: f64,
+    /// The largest energy that there could have been without it.
+    largest: f64,
+}
+
+/// The part of the energy that a method of going through time may add.
+const GAINED: f64 = 1e-3;
+
+impl Gain {
+    fn look(&mut self, frame: &Frame) {
+        let Some(energies) = &frame.energies else {
+            return;
+        };
+        let given = energies.kinetic_at_start + energies.external;
+        let gained = -energies.algorithmic();
+        let there = energies.kinetic + energies.internal + energies.contact;
+        self.largest = self.largest.max(given).max(there - gained.max(0.0));
+        if gained > self.energy {
+            (self.energy, self.time) = (gained, frame.time);
+        }
+    }
+
+    fn part(&self) -> f64 {
+        if self.largest > 0.0 {
+            self.energy / self.largest
+        } else {
+            0.0
+        }
+    }
+
+    fn warning(&self) -> Diagnostic {
+        let message = format!(
+            "the method of going through time has added {:.2} % to the energy",
+            100.0 * self.part()
+        );
+        Diagnostic::warning(&codes::ENERGY_ADDED, message)
+            .note(format!(
+                "{:.3e} by time {}; up to {:.1} % is let pass",
+                self.energy,
+                number(self.time),
+                100.0 * GAINED
+            ))
+            .help("let high frequencies go:  dynamics = { rho_inf = 0.8 }  of the step, in place of `alpha`")
+            .help("or nodes without mass at contacts:  contact_mass = \"redistributed\"")
+    }
 }
 
 /// The motion of bodies that nothing stops.
@@ -65,6 +118,7 @@ impl Audit {
         if frame.work_jumps > 0.0 {
             self.jumped.get_or_insert(frame.time);
         }
+        self.gain.look(frame);
         for motion in &frame.free_motions {
             if stopped(motion) {
                 self.unheld.remove(&*motion.bodies);
@@ -114,9 +168,11 @@ impl Audit {
         let all = self.contacts.values().flatten();
         AuditSummary {
             passed: all.fold(self.viscous.passes(), |ok, w| ok && w.failed == 0)
-                && self.unheld.is_empty(),
+                && self.unheld.is_empty()
+                && self.gain.part() <= GAINED,
             work_external: self.work_external,
             part_viscous: self.viscous.part,
+            part_gained: self.gain.part(),
             unheld: unheld.collect(),
             contacts: contacts.map(|(n, c)| (n.clone(), of(c))).collect(),
         }
@@ -142,6 +198,9 @@ impl Audit {
         }
         if !self.unheld.is_empty() {
             found.push(not_stopped(&self.unheld, model));
+        }
+        if self.gain.part() > GAINED {
+            found.push(self.gain.warning());
         }
         found
     }
@@ -259,6 +318,8 @@ impl Audit {
             .flat_map(|free| [free.time, free.distance]);
         archive.put_u64("run/audit.unheld", &bytes(self.unheld.keys()))?;
         archive.put_f64("run/audit.free", &free.collect::<Vec<_>>())?;
+        let gain = [self.gain.energy, self.gain.time, self.gain.largest];
+        archive.put_f64("run/audit.gain", &gain)?;
         archive.put_f64("run/audit.jumped", self.jumped.as_slice())?;
         archive.put_u64("run/audit.names", &names)?;
         archive.put_u64("run/audit.counts", &counts)?;
@@ -280,6 +341,9 @@ impl Audit {
         let all = texts(names);
         let mut names = all.iter();
         let jumped = archive.get_f64("run/audit.jumped").unwrap_or_default();
+        let gain = archive.get_f64("run/audit.gain").unwrap_or_default();
+        let gain = gain.first_chunk().copied().unwrap_or_default();
+        let [energy, time, largest] = gain;
         let forces = archive.get_f64("run/audit.forces").unwrap_or_default();
         let forces = all.iter().cloned().zip(forces.iter().copied()).collect();
         let unheld = archive.get_u64("run/audit.unheld").unwrap_or_default();
@@ -304,6 +368,11 @@ impl Audit {
             contacts,
             forces,
             jumped: jumped.first().copied(),
+            gain: Gain {
+                energy,
+                time,
+                largest,
+            },
             unheld,
             increments,
             work_external,
