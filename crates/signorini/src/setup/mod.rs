@@ -344,7 +344,7 @@ fn parts<'a>(
     };
     let (steps, couplings) = steps.steps(found);
     parts.steps = steps;
-    parts.velocity = motion::velocities(case, names, mesh, found);
+    parts.velocity = motion::velocities(case, names, (mesh, &parts.bodies), found);
     cuts.moves(&mut parts.velocity);
     parts.masses = motion::masses(case, names, found);
     for step in &mut parts.steps {

@@ -291,6 +291,27 @@ fn smooth(duration: f64) -> String {
     rows.collect::<Vec<_>>().join(", ")
 }
 
+/// What contact by ALPHA adds to the energy is said; what the usual method takes is not.
+#[test]
+fn energy_that_the_method_adds_causes_a_warning() {
+    for (dynamics, is_said) in [("alpha = 0.0", true), ("rho_inf = 0.8", false)] {
+        let bar = Bar {
+            dynamics,
+            gap: 0.06,
+            increments: 400,
+            ..Bar::default()
+        };
+        let (finished, _) = solve(&bar.text());
+        let said = finished.diagnostics.plain();
+        assert_eq!(
+            said.contains("warning[S0427]"),
+            is_said,
+            "{dynamics}: {said}"
+        );
+        assert_eq!(finished.summary.audit.passed, !is_said);
+    }
+}
+
 /// A bar falls by 5, and is back there after 16/3 of time: the force rises from 300 to 500 in its first contact.
 #[test]
 fn a_bar_that_is_dropped_bounces_in_its_period() {
@@ -396,6 +417,11 @@ fn what_a_dynamic_step_needs_is_said() {
     let removes = text.replace("fix = [", "deactivate = [{ group = \"bar\" }]\nfix = [");
     let refused = refusal(&removes);
     assert!(refused.contains("neither removed nor added"), "{refused}");
+    let rigid = text
+        .replace("material = \"m\"\n[sets]", "rigid = true\n[sets]")
+        .replace("fix = [{ on = \"bar\", u = [\"y\"] }]", "");
+    let refused = refusal(&rigid);
+    assert!(refused.contains("a rigid body has no mass"), "{refused}");
     let thin = Bar {
         elements: 2,
         dynamics: "contact_mass = \"redistributed\"",

@@ -6,7 +6,7 @@ use super::words;
 use signorini_vocabulary::Description;
 
 /// Numbers that are tried for a range, the first that lies in it is taken.
-const NUMBERS: [f64; 4] = [1.0, 0.3, 10.0, -1.0];
+const NUMBERS: [f64; 5] = [1.0, 0.3, 10.0, -1.0, -0.05];
 
 /// Values that a reader would expect, by the name of the key.
 const KNOWN: [(&str, &str); 25] = [

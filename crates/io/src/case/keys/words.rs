@@ -6,8 +6,9 @@ use super::super::vocabulary::{Bounds, Choice, Default, Key, Shape};
 const IN_BRACKETS: [&str; 5] = ["stress", "length", "radian", "degrees", "area"];
 
 /// Units of keys whose meaning names none, by the name of the key.
-const BY_NAME: [(&str, &str); 25] = [
+const BY_NAME: [(&str, &str); 26] = [
     ("density", "mass per volume"),
+    ("omega", "radian per time"),
     ("force", "force"),
     ("per_node", "force"),
     ("moment", "force times length"),
