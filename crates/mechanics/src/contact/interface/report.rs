@@ -459,8 +459,13 @@ impl Interface {
         if laws.bond {
             return laws.bond_energy(filled);
         }
+        let stretched = match self.step.scheme {
+            // what has slipped in the increment is spent
+            Some(_) => laws.elastic(traction),
+            None => filled.sliding.slip,
+        };
         let along = match laws.friction {
-            Some(_) => 0.5 * traction.tangential.dot(filled.sliding.slip),
+            Some(_) => 0.5 * traction.tangential.dot(stretched),
             None => 0.0,
         };
         let scalar = laws.scalar(filled.normal, lambda);
