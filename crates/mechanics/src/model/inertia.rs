@@ -116,7 +116,7 @@ impl Context<'_> {
     /// Whether a body is at least three elements thick where it has nodes on the sides.
     fn is_thick(&self, cells: &[CellId], sides: &BTreeSet<NodeId>) -> bool {
         let mut reached = sides.clone();
-        for layer in 0..3 {
+        for _ in 0..2 {
             let touched = |cell: &&CellId| {
                 let nodes = self.mesh.cell(**cell);
                 nodes.iter().any(|node| reached.contains(node))
@@ -125,7 +125,7 @@ impl Context<'_> {
             if touched.is_empty() {
                 return true;
             }
-            if touched.len() == cells.len() && layer < 2 {
+            if touched.len() == cells.len() {
                 return false;
             }
             for cell in touched {

@@ -494,6 +494,32 @@ impl Assembler {
         state: &State,
         out: &mut Assembly,
     ) -> Result<(), TermError> {
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let term = &terms[task.term];
+            let is_mass = term.properties().role == Role::Inertia;
+            let order = match task.part {
+                Part::Bulk if !is_mass => Order::Residual,
+                _ => Order::Tangent,
+            };
+            term.evaluate(task.chunk, state, order, work, buffer)?;
+            if !is_mass {
+                buffer.keep_constraints(layout);
+            }
+            Ok(())
+        };
+        self.assemble_by(layout, elimination, terms, state, evaluate, out)
+    }
+
+    /// Adds up what `evaluate` makes of every chunk, forces and stiffness.
+    fn assemble_by(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        state: &State,
+        evaluate: impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
         self.share_out(layout, elimination, terms);
         out.reset_forces(layout.ndof());
         reset(&mut out.bulk, self.bulk.nvalue());
@@ -516,19 +542,6 @@ impl Assembler {
             interface,
             order: Order::Tangent,
             shared: shared.as_ref(),
-        };
-        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
-            let term = &terms[task.term];
-            let is_mass = term.properties().role == Role::Inertia;
-            let order = match task.part {
-                Part::Bulk if !is_mass => Order::Residual,
-                _ => Order::Tangent,
-            };
-            term.evaluate(task.chunk, state, order, work, buffer)?;
-            if !is_mass {
-                buffer.keep_constraints(layout);
-            }
-            Ok(())
         };
         let size = wave(Order::Tangent);
         setting.run(evaluate, |_| size, tasks, slots, expanded, out)?;
@@ -572,27 +585,6 @@ impl Assembler {
         state: &State,
     ) -> Result<Vec<f64>, TermError> {
         let mut out = Assembly::default();
-        out.reset_forces(layout.ndof());
-        reset(&mut out.bulk, self.bulk.nvalue());
-        reset(&mut out.interface, self.interface.nentry());
-        let Self {
-            tasks,
-            shared,
-            bulk,
-            interface,
-            slots,
-            expanded,
-            ..
-        } = self;
-        let setting = Setting {
-            layout,
-            elimination,
-            trial: state,
-            bulk,
-            interface,
-            order: Order::Tangent,
-            shared: shared.as_ref(),
-        };
         let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
             let of_bulk = task.part == Part::Bulk;
             let initial = terms[task.term].capabilities().initial_stiffness;
@@ -601,8 +593,7 @@ impl Assembler {
                 None => Ok(()),
             }
         };
-        let size = wave(Order::Tangent);
-        setting.run(evaluate, |_| size, tasks, slots, expanded, &mut out)?;
+        self.assemble_by(layout, elimination, terms, state, evaluate, &mut out)?;
         Ok(out.bulk)
     }
 
