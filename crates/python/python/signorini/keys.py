@@ -1506,7 +1506,7 @@ class Dynamics(Table):
         default="generalized-alpha",
     )
     rho_inf: Key[float | None, float] = Key(
-        "What is left of the highest frequencies after an increment, from 1, all, to 0; absent: 0.8",
+        "The spectral radius of the highest frequencies: 1 keeps them, 0 takes them away in an increment; absent: 0.8",
         "number ≥ 0.0, ≤ 1.0",
     )
 

@@ -7,7 +7,7 @@ use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use signorini_vocabulary::Chosen;
 
-/// What is left of the highest frequencies, where a step says nothing.
+/// The spectral radius of the highest frequencies, where a step gives none.
 const RHO_INF: f64 = 0.8;
 
 impl Builder<'_> {

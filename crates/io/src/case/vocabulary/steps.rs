@@ -89,7 +89,7 @@ static DYNAMICS: Table = Table {
                 to: Some(1.0),
                 ..FREE
             }),
-            "what is left of the highest frequencies after an increment, from 1, all, to 0; absent: 0.8",
+            "the spectral radius of the highest frequencies: 1 keeps them, 0 takes them away in an increment; absent: 0.8",
         )
         .hints(&["rho", "spectral_radius"]),
         key(
