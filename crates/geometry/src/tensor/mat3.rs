@@ -70,16 +70,36 @@ impl Mat3 {
         Self::IDENTITY + k * a + k * k * b
     }
 
-    /// The rotation vector of a rotation by less than half a turn: [`Mat3::rotation`] gives it back.
+    /// The rotation vector of a rotation, of half a turn at most: [`Mat3::rotation`] gives it back.
     #[must_use]
     pub fn rotation_vector(self) -> Vec3 {
         let [a, b, c] = self.rows;
-        let sine = Vec3::new(c.y - b.z, a.z - c.x, b.x - a.y) * 0.5;
-        let (size, cosine) = (sine.norm(), 0.5 * (a.x + b.y + c.z - 1.0));
-        if size < 1e-8 {
-            return sine;
+        // the quaternion times four times its largest component, which keeps all digits
+        let trace = a.x + b.y + c.z;
+        let largest = trace.max(a.x).max(b.y).max(c.z);
+        let (scalar, vector) = if largest == trace {
+            let vector = Vec3::new(c.y - b.z, a.z - c.x, b.x - a.y);
+            (1.0 + trace, vector)
+        } else if largest == a.x {
+            let own = 1.0 + a.x - b.y - c.z;
+            (c.y - b.z, Vec3::new(own, b.x + a.y, a.z + c.x))
+        } else if largest == b.y {
+            let own = 1.0 + b.y - a.x - c.z;
+            (a.z - c.x, Vec3::new(b.x + a.y, own, c.y + b.z))
+        } else {
+            let own = 1.0 + c.z - a.x - b.y;
+            (b.x - a.y, Vec3::new(a.z + c.x, c.y + b.z, own))
+        };
+        let (scalar, vector) = if scalar < 0.0 {
+            (-scalar, vector * -1.0)
+        } else {
+            (scalar, vector)
+        };
+        let size = vector.norm();
+        if size < 1e-8 * scalar {
+            return vector * (2.0 / scalar);
         }
-        sine * (size.atan2(cosine) / size)
+        vector * (2.0 * size.atan2(scalar) / size)
     }
 
     /// The transpose.
@@ -229,10 +249,18 @@ mod tests {
 
     #[test]
     fn rotation_vectors_are_those_of_their_rotations() {
-        for angle in [0.0, 1e-12, 1e-9, 1e-7, 1e-3, 1.0, 3.0] {
-            let vector = Vec3::new(0.6, 0.0, -0.8) * angle;
-            let back = Mat3::rotation(vector).rotation_vector();
-            assert!((back - vector).norm() < 1e-14, "{angle}: {back:?}");
+        let axes = [
+            Vec3::new(0.6, 0.0, -0.8),
+            Vec3::new(0.0, 0.96, 0.28),
+            Vec3::new(-1.0, 0.0, 0.0),
+            Vec3::new(0.36, -0.48, 0.8),
+        ];
+        for angle in [0.0, 1e-12, 1e-9, 1e-7, 1e-3, 1.0, 3.0, 3.141592] {
+            for axis in axes {
+                let vector = axis * angle;
+                let back = Mat3::rotation(vector).rotation_vector();
+                assert!((back - vector).norm() < 1e-14, "{angle}: {back:?}");
+            }
         }
     }
 
