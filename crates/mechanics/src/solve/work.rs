@@ -1,14 +1,15 @@
 //! The work of external forces: of supports and loads.
 
 use crate::system::{
-    Archive, ArchiveError, Dof, Order, Role, Sink, State, System, TermError, Work,
+    Archive, ArchiveError, Dof, Order, Role, Sink, State, System, Term, TermError, Work,
 };
 
 /// Work that supports and loads have done since the start of a run.
 ///
 /// From one accepted state to the next, it is the motion times the mean of the forces at both: exact where forces are
-/// linear in the motion, of second order elsewhere. Where inertia counts, it is the motion times the forces between both. Supports count where dofs are prescribed in the present step: the
-/// force of a support that is removed does no work.
+/// linear in the motion, of second order elsewhere. Where inertia counts, it is the motion times the forces between both, of loads with
+/// a potential the difference of that. Supports count where dofs are prescribed in the present step: the force of a support that is
+/// removed does no work.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ExternalWork {
     /// Force times length; of a moment and a rotation, likewise.
@@ -39,12 +40,37 @@ impl ExternalWork {
     ) -> Result<(), TermError> {
         let ndof = system.layout.ndof();
         let mut loads = Loads(vec![0.0; ndof]);
+        let mut counted = Loads(vec![0.0; ndof]);
         let mut work = Work::default();
         let terms = system.terms.iter();
+        // what has a potential does the work of that, under the loads in force between the ends
+        let ends = between.map(|middle| {
+            [from, to].map(|end| State {
+                time: middle.time,
+                rates: None,
+                ..end.clone()
+            })
+        });
+        let mut done = 0.0;
         for term in terms.filter(|term| term.properties().role == Role::Load) {
+            let potentials = match &ends {
+                Some([from, to]) => potential(term.as_ref(), from, &mut work)?.zip(potential(
+                    term.as_ref(),
+                    to,
+                    &mut work,
+                )?),
+                None => None,
+            };
+            let forces = match potentials {
+                Some((before, after)) => {
+                    done += before - after;
+                    &mut counted
+                }
+                None => &mut loads,
+            };
             for chunk in 0..term.nchunk() {
                 let at = between.unwrap_or(to);
-                term.evaluate(chunk, at, Order::Residual, &mut work, &mut loads)?;
+                term.evaluate(chunk, at, Order::Residual, &mut work, forces)?;
             }
         }
         let reaction = |(&prescribed, &r): (&bool, &f64)| if prescribed { r } else { 0.0 };
@@ -54,7 +80,7 @@ impl ExternalWork {
         }
         self.supports.resize(supports.len(), 0.0);
         self.loads.resize(ndof, 0.0);
-        let mut work = 0.0;
+        let mut work = done;
         let motions = to.u.iter().zip(&from.u).take(system.layout.nmotion());
         for (dof, (now, before)) in motions.enumerate() {
             let at = |forces: &[f64]| forces.get(dof).copied().unwrap_or_default();
@@ -66,6 +92,9 @@ impl ExternalWork {
         }
         self.total += work;
         self.turnover += work.abs();
+        for (all, one) in loads.0.iter_mut().zip(counted.0) {
+            *all += one;
+        }
         (self.supports, self.loads) = (supports, loads.0);
         Ok(())
     }
@@ -104,6 +133,18 @@ impl ExternalWork {
         }
         Ok(())
     }
+}
+
+/// The potential of a load at a state; none where it has none.
+fn potential(term: &dyn Term, state: &State, work: &mut Work) -> Result<Option<f64>, TermError> {
+    let mut total = 0.0;
+    for chunk in 0..term.nchunk() {
+        match term.energy(chunk, state, work)? {
+            Some(energy) => total += energy,
+            None => return Ok(None),
+        }
+    }
+    Ok(Some(total))
 }
 
 /// Takes what loads exert: the residual has it with the other sign.
