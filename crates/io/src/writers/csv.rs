@@ -76,6 +76,26 @@ pub const REFERENCE_COLUMNS: [&str; 18] = [
     "reaction_moment_z",
 ];
 
+/// The same in models with inertia: velocity and angular velocity (radian per time), where what moves with it has a mass.
+pub const MOVING_REFERENCE_COLUMNS: [&str; 6] = [
+    "velocity_x",
+    "velocity_y",
+    "velocity_z",
+    "angular_velocity_x",
+    "angular_velocity_y",
+    "angular_velocity_z",
+];
+
+/// The columns of every reference, after its name and a dot.
+#[must_use]
+pub fn reference_columns(has_inertia: bool) -> Vec<&'static str> {
+    let mut all = REFERENCE_COLUMNS.to_vec();
+    if has_inertia {
+        all.extend(MOVING_REFERENCE_COLUMNS);
+    }
+    all
+}
+
 /// The columns of energies in `history.csv`, of models with inertia.
 ///
 /// What is there: kinetic, in bodies and springs, in contact. What happened since the start: work of supports and loads, spent in
@@ -106,7 +126,7 @@ pub fn history_columns(
     };
     let mut all: Vec<String> = HISTORY_COLUMNS.iter().map(ToString::to_string).collect();
     all.extend(of(contacts, &CONTACT_COLUMNS));
-    all.extend(of(references, &REFERENCE_COLUMNS));
+    all.extend(of(references, &reference_columns(has_inertia)));
     if has_inertia {
         all.extend(ENERGY_COLUMNS.iter().map(ToString::to_string));
     }

@@ -13,6 +13,14 @@
 //! m = Σ_cells m_cell / n    at the n nodes of a cell that are not on a side of a contact         (E4)
 //! ```
 //!
+//! and of a rigid body with the mass `m`, the arm `a` of its centroid, moments of inertia `J`, and `R_α = R₀ exp((1 − αf) Ψ)`, about
+//! its reference point:
+//!
+//! ```text
+//! f = m ((1 − αm) a₁ + αm a₀)    M = a_α × f + R_α [J ((1 − αm) A₁ + αm A₀) + (1 − αf) Ω₁×J Ω₁ + αf Ω₀×J Ω₀]   (E5)
+//! dΨ = T⁻¹(Ψ) R₁ᵀ dθ    T⁻¹(Ψ) = 1 + ½ [Ψ]× + (1/ψ² − cot(ψ/2)/(2ψ)) [Ψ]×²                          (E6)
+//! ```
+//!
 //! with `v₁`, `a₁` as functions of `Δd`, (E5) of `system`. Where a step begins, the term has no force and the stiffness `M`: the
 //! accelerations there follow from it ([`Role::Inertia`]). In static steps it takes no part.
 //!
@@ -24,15 +32,19 @@
 //! 7.3.2 (lumped masses); Khenous, Laborde and Renard, Eur. J. Mech. A 27, 2008 (nodes without mass).
 
 mod masses;
+mod rigid;
+#[cfg(test)]
+mod rigid_tests;
 #[cfg(test)]
 mod tests;
 
 pub use masses::Masses;
+pub use rigid::RigidInertia;
 
 use crate::system::{
-    Archive, ArchiveError, Capabilities, Dof, Elementwise, Energies, Frame, Inertial, Layout,
-    Lifetime, Order, Part, PatternSink, Phase, Properties, Rates, Role, Scheme, Sink, State,
-    Stored, Symmetry, Term, TermError, Work,
+    Archive, ArchiveError, Capabilities, Dof, Elementwise, Frame, Inertial, Layout, Lifetime,
+    Order, Part, PatternSink, Phase, Properties, Rates, Role, Scheme, Sink, State, Stored,
+    Symmetry, Term, TermError, Work,
 };
 use masses::Group;
 use signorini_geometry::mesh::NodeId;
@@ -119,7 +131,7 @@ impl Inertia {
             step: None,
             h: 0.0,
             before: 0.0,
-            rates: Rates::at_rest(layout.nnode()),
+            rates: Rates::at_rest(layout.nnode(), 0),
             from: Vec::new(),
             at_start: 0.0,
             spent: 0.0,
@@ -329,12 +341,10 @@ impl Term for Inertia {
 
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         if let Some(rates) = &state.rates {
-            frame.energies = Some(Energies {
-                kinetic: self.kinetic(&rates.velocity),
-                kinetic_at_start: self.at_start,
-                damping: self.spent,
-                ..Energies::default()
-            });
+            let energies = frame.energies.get_or_insert_default();
+            energies.kinetic += self.kinetic(&rates.velocity);
+            energies.kinetic_at_start += self.at_start;
+            energies.damping += self.spent;
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use crate::system::{
 use signorini_geometry::tensor::Vec3;
 
 /// Numbers in [-1, 1] that look random and are the same in every run.
-fn noise(k: usize) -> f64 {
+pub(super) fn noise(k: usize) -> f64 {
     let x = (k as f64 * 12.9898 + 4.1414).sin() * 43758.5453;
     2.0 * (x - x.floor()) - 1.0
 }
@@ -19,10 +19,20 @@ fn vectors(n: usize, seed: usize) -> Vec<Vec3> {
 }
 
 /// Forces and stiffness, dense.
-struct Sum {
+pub(super) struct Sum {
     ndof: usize,
-    force: Vec<f64>,
-    stiffness: Vec<f64>,
+    pub force: Vec<f64>,
+    pub stiffness: Vec<f64>,
+}
+
+impl Sum {
+    pub fn new(ndof: usize) -> Self {
+        Self {
+            ndof,
+            force: vec![0.0; ndof],
+            stiffness: vec![0.0; ndof * ndof],
+        }
+    }
 }
 
 impl Sink for Sum {
@@ -60,11 +70,12 @@ fn scene() -> (Layout, Inertia, State) {
     state.rates = Some(Rates {
         velocity: vectors(5, 100),
         acceleration: vectors(5, 200),
+        bodies: Vec::new(),
     });
     (layout, inertia, state)
 }
 
-fn begin(inertia: &mut Inertia, scheme: Scheme, h: f64, from: &State) {
+pub(super) fn begin(inertia: &mut dyn Term, scheme: Scheme, h: f64, from: &State) {
     let step = StepContext {
         scheme: Some(scheme),
         ..StepContext::default()
@@ -81,12 +92,7 @@ fn begin(inertia: &mut Inertia, scheme: Scheme, h: f64, from: &State) {
 }
 
 fn evaluate(inertia: &Inertia, layout: &Layout, trial: &State) -> Sum {
-    let n = layout.ndof();
-    let mut sum = Sum {
-        ndof: n,
-        force: vec![0.0; n],
-        stiffness: vec![0.0; n * n],
-    };
+    let mut sum = Sum::new(layout.ndof());
     for chunk in 0..inertia.nchunk() {
         let mut work = Work::default();
         inertia

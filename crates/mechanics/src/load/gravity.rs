@@ -28,6 +28,10 @@ impl Load for Gravity {
         }
     }
 
+    fn acceleration(&self) -> Option<Vec3> {
+        Some(self.0)
+    }
+
     fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
         None
     }

@@ -20,6 +20,11 @@ pub trait Load: Debug + Send + Sync {
         None
     }
 
+    /// The acceleration that it gives to all mass alike; `None` where it does not.
+    fn acceleration(&self) -> Option<Vec3> {
+        None
+    }
+
     /// The same load, turning with the surface that it acts on or not; `None` where it always keeps its direction.
     fn following(&self, follows: bool) -> Option<Arc<dyn Load>>;
 
@@ -107,6 +112,12 @@ impl Acting {
     pub fn forces(forces: Vec<(NodeId, Vec3)>) -> Self {
         let nodes = forces.iter().map(|(node, _)| *node).collect();
         Forces(forces).on(Place::Nodes(nodes))
+    }
+
+    /// Whether it acts on cells, and there are none.
+    #[must_use]
+    pub fn is_nowhere(&self) -> bool {
+        matches!(&self.place, Place::Cells(cells) if cells.is_empty())
     }
 
     /// Whether another load is of the same quantity in the same place; on a carrier, whether it acts on that.
@@ -230,6 +241,9 @@ pub enum LoadError {
         /// Name of the body.
         body: String,
     },
+    /// A load by mass on a rigid body that has none.
+    #[error("what it acts on has no mass")]
+    Massless,
     /// A moment on nodes that cannot carry it.
     #[error("its nodes lie in a point, or on a line about which the moment turns")]
     NoArm,

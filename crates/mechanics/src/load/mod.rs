@@ -44,7 +44,8 @@
 //! | [`Wrench`] | carriers |
 //! | [`Traction`], [`Pressure`] | faces |
 //! | [`BodyForce`] | cells, by volume |
-//! | [`Gravity`], [`Spin`] | cells, by mass |
+//! | [`Gravity`] | cells, by mass; carriers with a mass |
+//! | [`Spin`] | cells, by mass |
 //!
 //! To add a load: a file that implements [`Load`] and describes its keys in an `ENTRY`, a line above and in [`TABLE`]. A
 //! dead one needs no term but a function of [`spread`]. Cases can name it then.
@@ -68,6 +69,7 @@ pub mod spread;
 #[cfg(test)]
 mod tests;
 mod traction;
+mod weight;
 
 pub use body_force::BodyForce;
 pub use centrifugal::{Centrifugal, Spin};
@@ -83,6 +85,7 @@ pub use pressure::Pressure;
 pub use region::Region;
 pub use section::Section;
 pub use traction::Traction;
+pub use weight::Weight;
 
 use signorini_vocabulary::{Description, Entry};
 use std::sync::Arc;

@@ -29,7 +29,7 @@ pub(super) fn activity(
                 let body = owner.get(&cell).and_then(|&body| bodies.get(body));
                 match body {
                     None => return Err(ActivityError::Outside { step, element }.into()),
-                    Some(body) if matches!(body.kind, BodyKind::Rigid(_)) => {
+                    Some(body) if matches!(body.kind, BodyKind::Rigid { .. }) => {
                         let body = body.name.clone();
                         return Err(ActivityError::Rigid {
                             step,

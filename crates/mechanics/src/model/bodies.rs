@@ -283,7 +283,7 @@ impl Context<'_> {
                     truss.set_activity(self.activity.clone());
                     terms.push(Box::new(truss));
                 }
-                BodyKind::Rigid(_) => {}
+                BodyKind::Rigid { .. } => {}
             }
         }
         Ok((terms, summaries))

@@ -178,7 +178,7 @@ impl Followers<'_> {
         let mut nodes: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); self.carriers.len()];
         let mut taken: HashMap<NodeId, (usize, &str)> = HashMap::new();
         for body in self.bodies {
-            let BodyKind::Rigid(carrier) = body.kind else {
+            let BodyKind::Rigid { carrier, .. } = body.kind else {
                 continue;
             };
             let carrier = carrier as usize;

@@ -4,7 +4,7 @@ use super::constraints::Ties;
 use super::parts::CarrierPart;
 use super::spaces::Spaces;
 use super::substance::Substance;
-use crate::system::{Activity, Elimination, Idealisation, Layout};
+use crate::system::{Activity, Elimination, Idealisation, Layout, RigidMass};
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::Vec3;
@@ -23,6 +23,8 @@ pub(super) struct Context<'a> {
     pub substances: &'a [Substance],
     pub elimination: Arc<Elimination>,
     pub carriers: &'a [CarrierPart],
+    /// Those that have a mass.
+    pub heavy: Arc<[RigidMass]>,
     /// That of bodies that say nothing else, and of all that is no body.
     pub space: Idealisation,
     pub spaces: &'a Spaces<'a>,

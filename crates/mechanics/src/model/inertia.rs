@@ -2,26 +2,25 @@
 
 use super::substance::Substance;
 use super::{ContactPart, Context, MassMatrix, ModelError, PrimaryPart, SidePart};
-use crate::inertia::{Inertia, Masses};
+use crate::inertia::{Inertia, Masses, RigidInertia};
 use crate::load::{Region, mass};
 use crate::solve::Step;
-use crate::system::Term;
+use crate::system::{Rates, Term};
 use signorini_geometry::mesh::{CellId, Face, NodeId};
-use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
 
 impl Context<'_> {
-    /// The inertia of all bodies that deform, and of masses at nodes; none where all steps are static.
+    /// The inertia of all bodies, and of masses at nodes; none where all steps are static.
     pub(super) fn inertia(
         &self,
         steps: &[Step],
         contacts: &[ContactPart],
         at_nodes: &[(NodeId, f64)],
-        velocity: &[Vec3],
-    ) -> Result<Option<Box<dyn Term>>, ModelError> {
+        rates: Option<&Rates>,
+    ) -> Result<Vec<Box<dyn Term>>, ModelError> {
         let mut schemes = steps.iter().filter_map(|step| step.scheme.as_ref());
         if schemes.clone().next().is_none() {
-            return Ok(None);
+            return Ok(Vec::new());
         }
         let usual = self.masses(at_nodes, &BTreeSet::new())?;
         let redistributed = if schemes.any(|scheme| scheme.redistributed) {
@@ -30,8 +29,17 @@ impl Context<'_> {
             None
         };
         let mut inertia = Inertia::new(self.layout, usual, redistributed);
-        inertia.start(velocity);
-        Ok(Some(Box::new(inertia)))
+        let mut rigid = Vec::new();
+        if let Some(rates) = rates {
+            inertia.start(&rates.velocity);
+            rigid.clone_from(&rates.bodies);
+        }
+        let mut terms: Vec<Box<dyn Term>> = vec![Box::new(inertia)];
+        if !self.heavy.is_empty() {
+            let heavy = self.heavy.clone();
+            terms.push(Box::new(RigidInertia::new(self.layout, heavy, &rigid)));
+        }
+        Ok(terms)
     }
 
     /// The masses of all bodies that deform, and those at nodes. An element with nodes on the `sides` gives its mass to its
@@ -75,7 +83,8 @@ impl Context<'_> {
                 }
             });
         }
-        for &(node, m) in at_nodes {
+        let own = at_nodes.iter();
+        for &(node, m) in own.filter(|(node, _)| self.elimination.body_of(*node).is_none()) {
             heavy.insert(node);
             masses.push(&[node], &[m], 0.0);
         }
@@ -136,7 +145,7 @@ impl Context<'_> {
     }
 
     /// The cells of each body, in the order of the mesh.
-    fn cells_of_bodies(&self) -> Vec<Vec<CellId>> {
+    pub(super) fn cells_of_bodies(&self) -> Vec<Vec<CellId>> {
         let mut cells = vec![Vec::new(); self.substances.len()];
         for (&cell, &body) in self.owner {
             if let Some(cells) = cells.get_mut(body) {
@@ -148,7 +157,7 @@ impl Context<'_> {
     }
 
     /// Cells of a body with their mass.
-    fn massive(&self, body: &Substance, cells: &[CellId], density: f64) -> Region {
+    pub(super) fn massive(&self, body: &Substance, cells: &[CellId], density: f64) -> Region {
         let factor = density * body.section.unwrap_or(1.0);
         let mut region = Region::default();
         for &cell in cells {

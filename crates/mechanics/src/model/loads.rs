@@ -4,7 +4,7 @@ use super::label::label;
 use super::substance::Substance;
 use super::{ActivityError, Context, LoadPart, ModelError};
 use crate::load::{
-    Acting, Course, Domain, Effect, LoadError, NodalForces, Place, Region, Schedule, Site,
+    Acting, Course, Domain, Effect, LoadError, NodalForces, Place, Region, Schedule, Site, Weight,
 };
 use crate::solid::Integration;
 use crate::solve::Step;
@@ -156,6 +156,14 @@ impl Context<'_> {
         };
         let Acting { load, place } = &part.load;
         let site = match place {
+            Place::Carrier(carrier) if load.acceleration().is_some() => {
+                let acceleration = load.acceleration().unwrap_or_default();
+                let mut heavy = self.heavy.iter();
+                let body = heavy.find(|body| body.carrier == *carrier);
+                let body = *body.ok_or_else(|| named(LoadError::Massless))?;
+                let weight = Weight::new(name, self.layout, body, acceleration, schedule);
+                return Ok(Some(Box::new(weight)));
+            }
             Place::Carrier(carrier) => {
                 let wrench = load
                     .resultant()

@@ -34,6 +34,7 @@ mod loads;
 mod parts;
 mod reduction;
 mod spaces;
+mod rigid_masses;
 mod steps;
 mod substance;
 mod summary;
@@ -44,11 +45,11 @@ pub use constraint_error::ConstraintError;
 pub use error::ModelError;
 pub use held::Unheld;
 pub use parts::{
-    ActivityPart, AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind,
-    ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart,
-    Interference, LoadPart, MassMatrix, MassPart, Method, Normals, PairOrder, Parts, PointKind,
-    PointRule, PrimaryPart, SidePart, SpringPart, StartPart, StepPart, StickPart, Target,
-    TieOffset, TiePart, Unknown,
+    ActivityPart, AreaPart, BodyKind, BodyPart, CarrierMass, CarrierPart, CarrierVelocity, Change,
+    ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart,
+    FrictionPart, Interference, LoadPart, MassMatrix, MassPart, Method, Normals, PairOrder, Parts,
+    PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart, StepPart, StickPart,
+    Target, TieOffset, TiePart, Unknown,
 };
 pub use summary::{
     BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
@@ -183,7 +184,8 @@ impl Model {
         let sides = all_sides(&source, &joint, &mut layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
         let (modulus, shear_modulus) = moduli(bodies);
-        if modulus.iter().all(Option::is_none) && parts.springs.is_empty() {
+        let moves = parts.steps.iter().any(|step| step.scheme.is_some());
+        if modulus.iter().all(Option::is_none) && parts.springs.is_empty() && !moves {
             return Err(ModelError::NothingDeforms);
         }
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
@@ -202,12 +204,16 @@ impl Model {
             carriers: &parts.carriers,
             space,
             spaces: &spaces,
+            heavy: Arc::new([]),
             layout,
             ties: &ties,
             poses,
             activity,
         };
-        let (mut steps, loads) = context.steps(parts.steps)?;
+        context.heavy = context
+            .rigid_masses(&parts.masses, &parts.carrier_masses)
+            .into();
+        let (mut steps, loads) = context.steps(parts.steps, contacts)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
@@ -220,7 +226,9 @@ impl Model {
         let (mut terms, locking) = context.bodies(parts.bodies, temperature, &steps)?;
         terms.extend(connectors);
         let summaries = context.interfaces(sides, &joint, &mut terms)?;
-        let inertia = context.inertia(&steps, contacts, &parts.masses, &parts.velocity)?;
+        let heavy = context.heavy.clone();
+        let rates = context.rates_at_start(parts.velocity, &parts.carrier_velocities);
+        let inertia = context.inertia(&steps, contacts, &parts.masses, rates.as_ref())?;
         terms.extend(loads.into_iter().chain(dampers).chain(inertia));
         Ok(Self {
             unused: unused(&body_of_node),
@@ -233,7 +241,8 @@ impl Model {
                 body: body_of_node,
                 between,
                 ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
-                velocity: parts.velocity,
+                heavy,
+                rates,
                 wanted: crate::system::Wanted::default(),
             },
             steps,

@@ -1,12 +1,13 @@
 use super::constraint_error::ConstraintError;
 use super::constraints::components;
 use super::label::label;
-use super::{Change, Context, LoadPart, ModelError, StepPart, Target};
+use super::{Change, ContactPart, Context, LoadPart, ModelError, StepPart, Target};
 use crate::load::Place;
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, FieldId, Idealisation, NO_DOF};
+use crate::system::{Dof, DofName, FieldId, Idealisation, NO_DOF, RigidMass};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Component of a carrier along the axis of an axisymmetric model.
@@ -122,6 +123,7 @@ impl Context<'_> {
     pub(super) fn steps(
         &self,
         parts: Vec<StepPart>,
+        contacts: &[ContactPart],
     ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
         for body in 0..self.layout.nrigid() as RigidId {
@@ -192,6 +194,12 @@ impl Context<'_> {
                     prescribed.remove(&dof);
                 }
             }
+            if part.scheme.is_some() {
+                // mass moves unless something holds it
+                for dof in self.moved_by_mass().filter(|dof| !named.contains(dof)) {
+                    prescribed.remove(&dof);
+                }
+            }
             loads.push(part.loads);
             let prescriptions = prescribed.iter().map(|(&dof, motion)| Prescription {
                 dof,
@@ -210,6 +218,28 @@ impl Context<'_> {
     }
 
     /// The unknowns of carriers along which loads act.
+    /// The unknowns of rigid bodies with a mass that inertia acts along: translations, and rotations that have some.
+    fn moved_by_mass(&self) -> impl Iterator<Item = Dof> {
+        let of_body = move |body: &RigidMass| {
+            let inertia = body.about_reference();
+            let about = [inertia.xx(), inertia.yy(), inertia.zz()];
+            let carrier = body.carrier;
+            (0..6).filter_map(move |component: usize| {
+                if self.is_off_axis(carrier, component) {
+                    return None;
+                }
+                let turns = component.checked_sub(3).map(|axis| about[axis] > 0.0);
+                let dof = match turns {
+                    None => self.layout.translation(carrier, component),
+                    Some(true) => self.layout.rotation(carrier, component - 3),
+                    Some(false) => NO_DOF,
+                };
+                (dof != NO_DOF).then_some(dof)
+            })
+        };
+        self.heavy.iter().flat_map(of_body)
+    }
+
     fn loaded(&self, loads: &[LoadPart], step: &str) -> Result<Vec<Dof>, ModelError> {
         let layout = &self.layout;
         let mut dofs = Vec::new();
@@ -217,7 +247,9 @@ impl Context<'_> {
             let Place::Carrier(carrier) = part.load.place else {
                 continue;
             };
-            let [force, moment] = part.load.load.resultant().unwrap_or_default();
+            let load = &part.load.load;
+            let weight = load.acceleration().map(|g| [g, Vec3::ZERO]);
+            let [force, moment] = weight.or_else(|| load.resultant()).unwrap_or_default();
             let values = force.to_array().into_iter().chain(moment.to_array());
             for (component, _) in values.enumerate().filter(|(_, value)| *value != 0.0) {
                 self.may_move(step, carrier, component)?;

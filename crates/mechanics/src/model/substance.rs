@@ -3,6 +3,7 @@
 use super::{BodyKind, BodyPart, MassPart};
 use crate::solid::Integration;
 use crate::system::Idealisation;
+use signorini_geometry::surface::RigidId;
 use std::sync::Arc;
 
 /// What loads want to know of a body.
@@ -11,6 +12,8 @@ pub(super) struct Substance {
     pub density: Option<f64>,
     pub mass: MassPart,
     pub deforms: bool,
+    /// What it moves with, where it is rigid.
+    pub carrier: Option<RigidId>,
     /// Cross-section of bars.
     pub section: Option<f64>,
     pub integration: Integration,
@@ -25,7 +28,8 @@ impl Substance {
             name: body.name.clone(),
             density: None,
             mass: MassPart::default(),
-            deforms: !matches!(body.kind, BodyKind::Rigid(_)),
+            deforms: !matches!(body.kind, BodyKind::Rigid { .. }),
+            carrier: None,
             section: None,
             integration: Integration::Full,
             space: body.kind.space(of_model),
@@ -50,7 +54,9 @@ impl Substance {
                 (of.density, of.mass) = (density, mass);
                 of.section = Some(area);
             }
-            BodyKind::Rigid(_) => {}
+            BodyKind::Rigid { carrier, density } => {
+                (of.carrier, of.density) = (Some(carrier), density);
+            }
         }
         of
     }

@@ -503,6 +503,7 @@ impl Stepper {
         let time = self.progress.step_start + end;
         let dt = end - self.progress.time;
         self.guess.clear();
+        step: &Step,
         self.guess.extend(self.progress.rate.iter().map(|r| r * dt));
         let extrapolated = attempt == 1 && self.extrapolates();
         let goal = Goal {
@@ -567,9 +568,7 @@ impl Stepper {
         work.advance(system, &newton.prescribed, residual, states, between)?;
         let mut rates = self.state.rates.clone();
         if let (Some(scheme), Some(rates)) = (newton.step.scheme, &mut rates) {
-            let [from, to] = states;
-            let h = to.time - from.time;
-            rates.advance(&scheme, h, [&from.x, &to.x], system.massless());
+            system.advance_rates(rates, &scheme, states);
         }
         self.state.clone_from(&self.newton.trial);
         self.state.rates = rates;

@@ -1,6 +1,6 @@
 //! How states move: displacements add, rotations compose, dependent nodes follow.
 
-use super::{Elimination, Layout, State};
+use super::{Elimination, Layout, State, moved};
 use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -63,11 +63,9 @@ impl State {
         between.way.clear();
         between.way.extend(ways.map(|(to, from)| *to - *from));
         between.turn.clear();
-        let poses = from.poses.iter().zip(&to.poses);
-        between.turn.extend(poses.map(|(from, to)| {
-            let turn = to.rotation * from.rotation.transpose();
-            [to.origin - from.origin, turn.rotation_vector()]
-        }));
+        let carriers = 0..to.poses.len() as u32;
+        let ways = carriers.map(|carrier| moved(layout, [from, to], carrier));
+        between.turn.extend(ways);
         self.time = (1.0 - alpha_f) * to.time + alpha_f * from.time;
         self.is_small = to.is_small;
         self.u.clone_from(&to.u);

@@ -394,6 +394,10 @@ pub struct RigidFrame {
     pub reaction_force: Vec3,
     /// What they exert about prescribed rotations.
     pub reaction_moment: Vec3,
+    /// Velocity of the reference point, of a body with a mass in a motion with inertia.
+    pub velocity: Vec3,
+    /// Angular velocity in space (radian per time), likewise.
+    pub angular_velocity: Vec3,
 }
 
 impl Frame {

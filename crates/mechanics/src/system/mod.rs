@@ -33,7 +33,8 @@
 //! Unknowns are named fields ([`Layout`]). The bulk is that of the displacement; the coefficients of other fields, and
 //! those that couple fields, are in the interface.
 //!
-//! In a motion with inertia all terms are evaluated between the ends of an increment, (E4) to (E7) in `motion`.
+//! In a motion with inertia all terms are evaluated between the ends of an increment, (E4) to (E7) in `motion`, of
+//! rigid bodies (E8) and (E9) in `rigid_motion`.
 //!
 //! One more field: [`Layout::with_field`], and a term that adds to its dofs through [`PatternSink::interface`].
 //!
@@ -58,6 +59,7 @@ mod layout;
 mod loose;
 mod motion;
 mod phase;
+mod rigid_motion;
 mod samples;
 mod setting;
 mod shares;
@@ -89,6 +91,7 @@ pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_D
 pub use loose::Course;
 pub use motion::{Between, Rates, Scheme};
 pub use phase::{Increment, Phase, StepContext};
+pub use rigid_motion::{BodyRates, BodyWay, RigidMass, moved};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use signorini_linear::Symmetry;

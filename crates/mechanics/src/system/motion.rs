@@ -18,6 +18,7 @@
 //! Sources: Chung and Hulbert, J. Appl. Mech. 60, 1993; Hilber, Hughes and Taylor, EESD 5, 1977; Brüls, Cardona and Arnold,
 //! Mech. Mach. Theory 48, 2012 (the time of the acceleration).
 
+use super::BodyRates;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 
@@ -77,28 +78,31 @@ impl Scheme {
     }
 }
 
-/// Velocities and accelerations of all nodes.
+/// Velocities and accelerations of all nodes, and of rigid bodies with a mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
     /// Velocities.
     pub velocity: Vec<Vec3>,
     /// Accelerations, at the time of (E7).
     pub acceleration: Vec<Vec3>,
+    /// Those of rigid bodies with a mass, in their order.
+    pub bodies: Vec<BodyRates>,
 }
 
 impl Rates {
-    /// Those of so many nodes at rest.
+    /// Those of so many nodes at rest, and rigid bodies with a mass.
     #[must_use]
-    pub fn at_rest(nnode: usize) -> Self {
-        Self::new(vec![Vec3::ZERO; nnode])
+    pub fn at_rest(nnode: usize, nbody: usize) -> Self {
+        Self::new(vec![Vec3::ZERO; nnode], vec![BodyRates::default(); nbody])
     }
 
-    /// Those of nodes at these velocities.
+    /// Those of nodes at these velocities, and of rigid bodies.
     #[must_use]
-    pub fn new(velocity: Vec<Vec3>) -> Self {
+    pub fn new(velocity: Vec<Vec3>, bodies: Vec<BodyRates>) -> Self {
         Self {
             acceleration: vec![Vec3::ZERO; velocity.len()],
             velocity,
+            bodies,
         }
     }
 
@@ -175,6 +179,7 @@ mod tests {
             let mut rates = Rates {
                 velocity: vec![v],
                 acceleration: vec![a],
+                bodies: Vec::new(),
             };
             let to = v * h + a * (0.5 * h * h);
             rates.advance(&scheme, h, [&[Vec3::ZERO], &[to]], &[]);

@@ -1,4 +1,4 @@
-use super::{Archive, ArchiveError, Between, Layout, Rates};
+use super::{Archive, ArchiveError, Between, BodyRates, Layout, Rates};
 use signorini_geometry::surface::{Placement, Pose};
 use signorini_geometry::tensor::Vec3;
 
@@ -25,6 +25,7 @@ pub struct State {
 
 /// The names under which rates are stored.
 const RATES: [&str; 2] = ["state.velocity", "state.acceleration"];
+const BODY_RATES: &str = "state.bodies";
 
 impl State {
     /// The configuration, as geometry sees it.
@@ -51,6 +52,9 @@ impl State {
                 let numbers: Vec<[f64; 3]> = rates.iter().map(|rate| rate.to_array()).collect();
                 out.put(*name, numbers.as_flattened());
             }
+            let vectors = rates.bodies.iter().flat_map(BodyRates::to_vectors);
+            let numbers: Vec<[f64; 3]> = vectors.map(Vec3::to_array).collect();
+            out.put(BODY_RATES, numbers.as_flattened());
         }
     }
 
@@ -76,9 +80,15 @@ impl State {
                 from.get(name, numbers.as_flattened_mut())?;
                 Ok(numbers.into_iter().map(Vec3::from).collect())
             });
+            let mut numbers = vec![[0.0; 3]; from.length(BODY_RATES).unwrap_or(0) / 3];
+            from.get(BODY_RATES, numbers.as_flattened_mut())?;
+            let bodies = numbers.as_chunks::<4>().0.iter();
             self.rates = Some(Rates {
                 velocity: velocity?,
                 acceleration: acceleration?,
+                bodies: bodies
+                    .map(|of| BodyRates::from_vectors(of.map(Vec3::from)))
+                    .collect(),
             });
         }
         Ok(())

@@ -1,15 +1,16 @@
 use super::internal_forces::internal_forces;
 use super::{
     Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, Elimination,
-    FieldId, Frame, FreeMotion, Layout, NodalValues, Rates, Role, Samples, State, Term, TermError,
-    Wanted, Work,
+    FieldId, Frame, FreeMotion, Layout, NodalValues, Rates, RigidMass, Role, Samples, Scheme,
+    State, Term, TermError, Wanted, Work, moved,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, NodeId};
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Mat3, Vec3};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// The largest motion of an unknown in the small time of [`System::rates`].
+/// The largest motion of an unknown in the small time of [`System::nodal_rates`].
 const SOON: f64 = 1e-6;
 
 /// Everything that is solved together.
@@ -30,8 +31,10 @@ pub struct System {
     pub between: Vec<[u32; 2]>,
     /// Cells of each block of the mesh, for frames.
     pub ncell: Vec<usize>,
-    /// Velocities of the nodes at the start; empty where nothing moves.
-    pub velocity: Vec<Vec3>,
+    /// Rigid bodies with a mass.
+    pub heavy: Arc<[RigidMass]>,
+    /// How everything moves at the start; none where nothing does.
+    pub rates: Option<Rates>,
     /// What frames have besides.
     pub wanted: Wanted,
 }
@@ -40,11 +43,10 @@ impl System {
     /// The undeformed state.
     #[must_use]
     pub fn initial_state(&self) -> State {
-        let mut state = State::initial(&self.layout, &self.reference, &self.elimination);
-        if !self.velocity.is_empty() {
-            state.rates = Some(Rates::new(self.velocity.clone()));
+        State {
+            rates: self.rates.clone(),
+            ..State::initial(&self.layout, &self.reference, &self.elimination)
         }
-        state
     }
 
     /// The terms that change for the sake of an iteration.
@@ -110,7 +112,7 @@ impl System {
 
     /// How the nodes move at a state where unknowns change at these rates. Of nodes that follow others it is a difference
     /// over a small time, good to ten digits of the largest rate.
-    fn rates(&self, state: &State, rates: &[f64]) -> Vec<Vec3> {
+    fn nodal_rates(&self, state: &State, rates: &[f64]) -> Vec<Vec3> {
         let layout = &self.layout;
         let motions = rates.iter().take(layout.nmotion());
         let fastest = motions.fold(0.0, |most: f64, rate| most.max(rate.abs()));
@@ -133,17 +135,65 @@ impl System {
         places.map(of_node).collect()
     }
 
-    /// Sets the accelerations of the nodes at a state, given those of unknowns.
+    /// Sets the accelerations of the nodes and of rigid bodies at a state, given those of unknowns.
     pub fn accelerate(&self, state: &mut State, accelerations: &[f64]) {
-        let acceleration = self.rates(state, accelerations);
-        let nnode = self.layout.nnode();
-        let rates = state.rates.get_or_insert_with(|| Rates::at_rest(nnode));
-        rates.acceleration = acceleration;
+        let acceleration = self.nodal_rates(state, accelerations);
+        let (nnode, nbody) = (self.layout.nnode(), self.heavy.len());
+        let mut rates = state.rates.take();
+        let of = rates.get_or_insert_with(|| Rates::at_rest(nnode, nbody));
+        of.acceleration = acceleration;
         for &node in self.massless() {
-            if let Some(to) = rates.acceleration.get_mut(node as usize) {
+            if let Some(to) = of.acceleration.get_mut(node as usize) {
                 *to = Vec3::ZERO;
             }
         }
+        let (layout, elimination) = (&self.layout, &self.elimination);
+        for (body, rates) in self.heavy.iter().zip(&mut of.bodies) {
+            let of = |dof: Dof| elimination.increment(dof, accelerations);
+            let [along, about] = [Layout::translation, Layout::rotation]
+                .map(|dof| Vec3::from([0, 1, 2].map(|axis| of(dof(layout, body.carrier, axis)))));
+            let spin = body.rotation(state) * rates.spin;
+            let start = body.rates(state, [Vec3::ZERO, spin], [along, about]);
+            (rates.acceleration, rates.spin_rate) = (start.acceleration, start.spin_rate);
+        }
+        state.rates = rates;
+    }
+
+    /// Moves rates on to the end of an increment that leads from one state to another.
+    pub fn advance_rates(&self, rates: &mut Rates, scheme: &Scheme, [from, to]: [&State; 2]) {
+        let h = to.time - from.time;
+        rates.advance(scheme, h, [&from.x, &to.x], self.massless());
+        for (body, rates) in self.heavy.iter().zip(&mut rates.bodies) {
+            let way = body.way(from, moved(&self.layout, [from, to], body.carrier));
+            *rates = rates.advanced(scheme, h, &way);
+        }
+    }
+
+    /// Velocities and accelerations of the nodes at a state: those that follow a rigid body with a mass move as it does.
+    fn nodal_motions(&self, state: &State, rates: &Rates) -> [Vec<Vec3>; 2] {
+        let mut motions = [rates.velocity.clone(), rates.acceleration.clone()];
+        for (body, rates) in self.heavy.iter().zip(&rates.bodies) {
+            let carrier = body.carrier as usize;
+            let bodies = self.elimination.bodies().get(carrier);
+            let (Some(of), Some(pose)) = (bodies, state.poses.get(carrier)) else {
+                continue;
+            };
+            for &node in &of.nodes {
+                let node = node as usize;
+                let place = if state.is_small {
+                    self.reference.get(node).map(|x| *x - of.reference)
+                } else {
+                    state.x.get(node).map(|x| *x - pose.origin)
+                };
+                let moving = body.at(state, rates, place.unwrap_or_default());
+                for (all, one) in motions.iter_mut().zip(moving) {
+                    if let Some(to) = all.get_mut(node) {
+                        *to = one;
+                    }
+                }
+            }
+        }
+        motions
     }
 
     /// The nodes that have no mass in the present step though their bodies have one.
@@ -171,8 +221,7 @@ impl System {
             *u = self.displacement(state, node as u32);
         }
         if let Some(rates) = &state.rates {
-            frame.velocity.clone_from(&rates.velocity);
-            frame.acceleration.clone_from(&rates.acceleration);
+            [frame.velocity, frame.acceleration] = self.nodal_motions(state, rates);
         }
         let layout = &self.layout;
         frame.rigid.resize_with(layout.nrigid(), Default::default);
@@ -199,6 +248,11 @@ impl System {
             for axis in 0..3 {
                 rigid.displacement[axis] = value(layout.translation(body, axis));
                 rigid.rotation[axis] = value(layout.rotation(body, axis));
+            }
+            if let Some(pose) = state.poses.get(body as usize)
+                && !state.is_small
+            {
+                rigid.rotation = turned(rigid.rotation, pose.rotation);
             }
         }
         for term in &self.terms {
@@ -310,4 +364,47 @@ fn samples_of(
         samples.sort();
     }
     Ok(samples)
+}
+
+/// The rotation vector of a rotation, with as many whole turns as are next to the sum of its increments: that itself where it is
+/// one, about a fixed axis.
+fn turned(sum: Vec3, rotation: Mat3) -> Vec3 {
+    /// Larger than the rounding errors of a rotation after many increments.
+    const SAME: f64 = 1e-10;
+    let off = (Mat3::rotation(sum) - rotation).rows;
+    if off.iter().all(|row| row.max_abs() < SAME) {
+        return sum;
+    }
+    let vector = rotation.rotation_vector();
+    let size = vector.norm();
+    let axis = if size > SAME {
+        vector / size
+    } else {
+        sum / sum.norm().max(SAME)
+    };
+    let turns = ((sum - vector).dot(axis) / TAU).round();
+    vector + axis * (turns * TAU)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::turned;
+    use signorini_geometry::tensor::{Mat3, Vec3};
+
+    #[test]
+    fn rotations_are_reported_as_axis_and_angle_with_their_turns() {
+        let about = |axis: Vec3, angle: f64| Mat3::rotation(axis * angle);
+        let [x, z] = [Vec3::unit(0), Vec3::unit(2)];
+        // about one axis: the sum of increments, to the bit
+        let sum = z * 9.3;
+        assert_eq!(turned(sum, about(z, 9.3)), sum);
+        // about two: no sum
+        let both = about(z, 1.2) * about(x, 0.9);
+        let got = turned(Vec3::new(0.9, 0.0, 1.2), both);
+        let off = (Mat3::rotation(got) - both).rows;
+        assert!(off.iter().all(|row| row.norm() < 1e-14));
+        // with a turn more
+        let more = turned(got + got / got.norm() * 6.0, both);
+        assert!((more.norm() - got.norm() - std::f64::consts::TAU).abs() < 1e-12);
+    }
 }

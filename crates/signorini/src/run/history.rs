@@ -3,10 +3,12 @@
 use super::probe::{Probe, ProbeError, quantities};
 use crate::setup::Model;
 use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
 use signorini_io::case::HistorySource;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_io::writers::csv::{
     CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS, history_columns,
+    reference_columns,
 };
 use signorini_mechanics::system::{ContactFrame, Energies, Frame, Resultant, RigidFrame};
 
@@ -38,7 +40,7 @@ impl History {
         let contacts = contacts(model);
         let contacts: Vec<&str> = contacts.iter().map(String::as_str).collect();
         let references: Vec<&str> = model.references.iter().map(|r| r.name.as_str()).collect();
-        let has_inertia = model.steps.iter().any(|step| step.scheme.is_some());
+        let has_inertia = has_inertia(model);
         let standard = history_columns(&contacts, &references, has_inertia, &[]);
         let mut found = Diagnostics::new();
         let mut names = Vec::new();
@@ -92,7 +94,12 @@ impl History {
         }
         for &body in &self.references {
             let rigid = frame.rigid.get(body as usize).copied();
-            values.extend(of_reference(&rigid.unwrap_or_default()));
+            let rigid = rigid.unwrap_or_default();
+            values.extend(of_reference(&rigid));
+            if self.has_inertia {
+                let moving = [rigid.velocity, rigid.angular_velocity];
+                values.extend(moving.map(Vec3::to_array).as_flattened());
+            }
         }
         if self.has_inertia {
             values.extend(of_energies(&frame.energies.unwrap_or_default()));
@@ -106,6 +113,11 @@ impl History {
         }
         values
     }
+}
+
+/// Whether anything moves with inertia.
+fn has_inertia(model: &Model) -> bool {
+    model.steps.iter().any(|step| step.scheme.is_some())
 }
 
 /// The contacts that have columns: those of the model, and where pairs are found those that the case asks for, which may
@@ -290,7 +302,7 @@ fn choose(
         }
         HistorySource::Reference(name) => {
             let known = names(model.references.iter().map(|r| &r.name).collect());
-            copy(name, &known, &REFERENCE_COLUMNS)
+            copy(name, &known, &reference_columns(has_inertia(model)))
         }
         HistorySource::Node(label) => probe(
             Probe::at_node(model, &quantity.value, label.value),

@@ -77,6 +77,45 @@ pub(super) fn left_out(
     })
 }
 
+/// The material that a body names.
+pub(super) fn material<'a>(case: &'a Case, body: &Body) -> Option<&'a case::Material> {
+    let name = body.material.as_ref()?;
+    let mut all = case.materials.iter();
+    all.find(|one| one.name.value == name.value)
+}
+
+/// The density of a rigid body.
+fn rigid_density(body: &Body, part: &case::Material, found: &mut Diagnostics) -> Option<f64> {
+    if part.damping != 0.0 {
+        let message = "damping of a rigid body is not built";
+        let place = body
+            .material
+            .as_ref()
+            .map_or(&body.place, |name| &name.place);
+        found.push(
+            Diagnostic::error(&codes::NOT_BUILT, message)
+                .at(place, "this material has `damping`")
+                .help("give it a material of its own without `damping`"),
+        );
+    }
+    if part.density.is_none() {
+        let message = "a rigid body with a material that has no `density`";
+        let place = body
+            .material
+            .as_ref()
+            .map_or(&body.place, |name| &name.place);
+        found.push(
+            Diagnostic::error(&codes::MISSING, message)
+                .at(
+                    place,
+                    "its density is all that a rigid body has of its material",
+                )
+                .help("write  density =  there, or delete `material` here"),
+        );
+    }
+    part.density.as_ref().map(|density| density.value)
+}
+
 /// What a body is called: by its groups.
 pub(super) fn name(body: &Body) -> String {
     let groups: Vec<&str> = body.groups.iter().map(|group| group.as_str()).collect();
@@ -97,13 +136,14 @@ fn body_part(
     let name = name(body);
     if body.rigid {
         let first = body.groups.first()?;
-        let kind = BodyKind::Rigid(carriers.get(first)?);
+        let kind = BodyKind::Rigid {
+            carrier: carriers.get(first)?,
+            density: material(case, body).and_then(|part| rigid_density(body, part, found)),
+        };
         let cells = cells.all();
         return Some(BodyPart { name, cells, kind });
     }
-    let material = body.material.as_ref();
-    let part =
-        material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
+    let part = material(case, body)?;
     let density = part.density.as_ref().map(|density| density.value);
     let mass = MassPart {
         matrix: match body.mass_matrix {

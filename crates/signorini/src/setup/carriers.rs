@@ -16,6 +16,8 @@ pub(super) struct Carriers {
     by_name: BTreeMap<String, RigidId>,
     /// Those that something moves with.
     in_use: BTreeSet<RigidId>,
+    /// Those that have a mass.
+    heavy: BTreeSet<RigidId>,
 }
 
 impl Carriers {
@@ -24,6 +26,7 @@ impl Carriers {
             parts: Vec::new(),
             by_name: BTreeMap::new(),
             in_use: BTreeSet::new(),
+            heavy: BTreeSet::new(),
         };
         for one in &case.references {
             let at = match one.position {
@@ -45,10 +48,17 @@ impl Carriers {
             let first = body.groups.first().map_or("", |group| group.as_str());
             let carrier = reference.unwrap_or_else(|| carriers.push(first, None));
             carriers.in_use.insert(carrier);
+            if body.material.is_some() {
+                carriers.heavy.insert(carrier);
+            }
             for group in &body.groups {
                 carriers.by_name.insert(group.value.clone(), carrier);
             }
         }
+        let masses = case.masses.iter();
+        let masses: Vec<RigidId> = masses.filter_map(|one| carriers.get(&one.on)).collect();
+        carriers.heavy.extend(&masses);
+        carriers.in_use.extend(&masses);
         let of_surfaces = case
             .surfaces
             .iter()
@@ -97,6 +107,20 @@ impl Carriers {
     /// Whether a body or nodes move with it.
     pub fn moves_something(&self, carrier: RigidId) -> bool {
         self.in_use.contains(&carrier)
+    }
+
+    /// Whether it has a mass.
+    pub fn has_mass(&self, carrier: RigidId) -> bool {
+        self.heavy.contains(&carrier)
+    }
+
+    /// Those that have a mass.
+    pub fn with_mass(&self) -> impl Iterator<Item = (RigidId, &str)> {
+        let name = |&carrier: &RigidId| {
+            let part = self.parts.get(carrier as usize)?;
+            Some((carrier, &part.name[..]))
+        };
+        self.heavy.iter().filter_map(name)
     }
 
     /// The one name, of those a carrier has, that histories use.

@@ -53,6 +53,23 @@ fn acting(load: &case::Load, found: &mut Diagnostics) -> Option<Arc<dyn Load>> {
     Some(following.unwrap_or(acts))
 }
 
+/// The load on everything that has a mass, besides cells of bodies that deform: on rigid bodies, with their names.
+pub(super) fn on_rigid_bodies(
+    load: &case::Load,
+    acting: &Acting,
+    carriers: &Carriers,
+) -> Vec<(String, Acting)> {
+    if load.on.as_str() != ALL || acting.load.acceleration().is_none() {
+        return Vec::new();
+    }
+    let on = |(carrier, name): (RigidId, &str)| {
+        let place = Place::Carrier(carrier);
+        let load = acting.load.clone();
+        (name.to_owned(), Acting { load, place })
+    };
+    carriers.with_mass().map(on).collect()
+}
+
 /// What loads refer to.
 pub(super) struct Context<'a> {
     pub case: &'a Case,
@@ -110,6 +127,20 @@ impl Context<'_> {
         carrier: RigidId,
         found: &mut Diagnostics,
     ) -> Option<()> {
+        if acts.acceleration().is_some() {
+            if self.carriers.has_mass(carrier) {
+                return Some(());
+            }
+            let message = format!("{} has no mass", quoted(&load.on));
+            found.push(
+                Diagnostic::error(&codes::MISSING, message)
+                    .at(&load.what, "acts on mass")
+                    .help(
+                        "write a [[mass]] on it; or a `material` with a `density` in its [[body]]",
+                    ),
+            );
+            return None;
+        }
         if acts.resultant().is_none() {
             let message = format!(
                 "`{}` does not act on {}, which moves as a whole",

@@ -344,9 +344,9 @@ fn parts<'a>(
     };
     let (steps, couplings) = steps.steps(found);
     parts.steps = steps;
-    parts.velocity = motion::velocities(case, names, (mesh, &parts.bodies), found);
+    motion::velocities(case, (names, carriers), mesh, &mut parts, found);
     cuts.moves(&mut parts.velocity);
-    parts.masses = motion::masses(case, names, found);
+    motion::masses(case, (names, carriers), &mut parts, found);
     for step in &mut parts.steps {
         cuts.warm(&mut step.temperatures);
     }

@@ -1,22 +1,24 @@
-//! What moves at the start, and masses at nodes.
+//! What moves at the start, and masses at nodes and of references.
 
-use super::names::Names;
+use super::carriers::Carriers;
+use super::names::{Names, quoted};
 use signorini_geometry::mesh::{Mesh, NodeId};
-use signorini_geometry::tensor::Vec3;
-use signorini_io::case::Case;
+use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_io::case::{Case, MassAt, VelocityAt};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
-use signorini_mechanics::model::{BodyKind, BodyPart};
-use std::collections::HashSet;
+use signorini_mechanics::model::{BodyKind, CarrierMass, CarrierVelocity, Parts};
+use std::collections::HashMap;
 
-/// The velocity of every node at the start; nothing where the case names none.
+/// Sets what moves at the start.
 pub(super) fn velocities(
     case: &Case,
-    names: &Names<'_>,
-    (mesh, bodies): (&Mesh, &[BodyPart]),
+    (names, carriers): (&Names<'_>, &Carriers),
+    mesh: &Mesh,
+    parts: &mut Parts<'_>,
     found: &mut Diagnostics,
-) -> Vec<Vec3> {
+) {
     let Some(first) = case.initial_velocities.first() else {
-        return Vec::new();
+        return;
     };
     if case.steps.first().is_some_and(|s| s.dynamics.is_none()) {
         let message = "velocities at the start of a static step mean nothing";
@@ -26,43 +28,101 @@ pub(super) fn velocities(
                 .help("delete them, or write  kind = \"dynamic\"  in the first [[step]]"),
         );
     }
-    let rigid = bodies
-        .iter()
-        .filter(|body| matches!(body.kind, BodyKind::Rigid(_)));
-    let cells = rigid.flat_map(|body| &body.cells);
-    let rigid: HashSet<NodeId> = cells.flat_map(|&cell| mesh.cell(cell)).copied().collect();
+    // what each node of a rigid body moves with
+    let mut rigid: HashMap<NodeId, u32> = HashMap::new();
+    for body in &parts.bodies {
+        if let BodyKind::Rigid { carrier, .. } = body.kind {
+            let nodes = body.cells.iter().flat_map(|&cell| mesh.cell(cell));
+            rigid.extend(nodes.map(|&node| (node, carrier)));
+        }
+    }
     let mut velocities = vec![Vec3::ZERO; mesh.nnode()];
     for one in &case.initial_velocities {
         let [velocity, spin, about] = [one.velocity, one.spin, one.about].map(Vec3::from);
-        let nodes = names.nodes(&one.on, found).unwrap_or_default();
-        if nodes.iter().any(|node| rigid.contains(node)) {
-            let message = "a rigid body has no mass, and so no velocity at the start";
-            found.push(
-                Diagnostic::error(&codes::NOT_BUILT, message)
-                    .at(&one.on.place, "names nodes of one")
-                    .help("prescribe its motion by [[step.move]]"),
-            );
-        }
-        for node in nodes {
-            let place = mesh.points.get(node as usize);
-            if let (Some(to), Some(place)) = (velocities.get_mut(node as usize), place) {
-                *to = velocity + spin.cross(*place - about);
+        let mut moving: Vec<u32> = carriers.get(&one.on).into_iter().collect();
+        if moving.is_empty() {
+            let nodes = names.nodes(&one.on, found).unwrap_or_default();
+            for node in nodes {
+                let place = mesh.points.get(node as usize);
+                if let (Some(to), Some(place)) = (velocities.get_mut(node as usize), place) {
+                    *to = velocity + spin.cross(*place - about);
+                }
+                moving.extend(rigid.get(&node));
             }
+            moving.sort_unstable();
+            moving.dedup();
         }
+        if moving.iter().any(|&carrier| !carriers.has_mass(carrier)) {
+            found.push(without_mass(one));
+        }
+        let with = |carrier| CarrierVelocity {
+            carrier,
+            velocity,
+            spin,
+            about,
+        };
+        parts
+            .carrier_velocities
+            .extend(moving.into_iter().map(with));
     }
-    velocities
+    parts.velocity = velocities;
 }
 
-/// Masses at nodes.
+fn without_mass(one: &VelocityAt) -> Diagnostic {
+    let message = "a rigid body without mass has no velocity at the start";
+    Diagnostic::error(&codes::MISSING, message)
+        .at(&one.on.place, "names one")
+        .help("write a [[mass]] on it, or a `material` with a `density` in its [[body]]; or prescribe its motion by [[step.move]]")
+}
+
+/// Sets masses at nodes and of references.
 pub(super) fn masses(
     case: &Case,
-    names: &Names<'_>,
+    (names, carriers): (&Names<'_>, &Carriers),
+    parts: &mut Parts<'_>,
     found: &mut Diagnostics,
-) -> Vec<(NodeId, f64)> {
-    let mut masses = Vec::new();
+) {
     for one in &case.masses {
-        let nodes = names.nodes(&one.on, found).unwrap_or_default();
-        masses.extend(nodes.into_iter().map(|node| (node, one.value)));
+        let Some(carrier) = carriers.get(&one.on) else {
+            refuse_extent(one, found);
+            let nodes = names.nodes(&one.on, found).unwrap_or_default();
+            parts
+                .masses
+                .extend(nodes.into_iter().map(|node| (node, one.value)));
+            continue;
+        };
+        let [xx, yy, zz, xy, xz, yz] = one.inertia.as_ref().map_or([0.0; 6], |of| of.value);
+        let inertia = Sym3::new(xx, yy, zz, xy, yz, xz);
+        let smallest = inertia.eigenvalues().into_iter().fold(0.0, f64::min);
+        if smallest < -1e-12 * inertia.trace().abs()
+            && let Some(of) = &one.inertia
+        {
+            let message = "moments of inertia that no body has";
+            found.push(
+                Diagnostic::error(&codes::OUT_OF_RANGE, message)
+                    .at(&of.place, "their smallest principal value is negative"),
+            );
+        }
+        parts.carrier_masses.push(CarrierMass {
+            carrier,
+            mass: one.value,
+            centroid: one.centroid.as_ref().map(|at| Vec3::from(at.value)),
+            inertia,
+        });
     }
-    masses
+}
+
+/// Refuses what masses at nodes do not have.
+fn refuse_extent(one: &MassAt, found: &mut Diagnostics) {
+    let centroid = one.centroid.as_ref().map(|of| ("centroid", &of.place));
+    let inertia = one.inertia.as_ref().map(|of| ("inertia", &of.place));
+    for (key, place) in centroid.into_iter().chain(inertia) {
+        let message = format!("`{key}` of a mass at nodes");
+        let remark = format!("{} is no reference and no rigid body", quoted(&one.on));
+        found.push(
+            Diagnostic::error(&codes::CONTRADICTION, message)
+                .at(place, remark)
+                .help("delete it; or name a [reference] with a [[constraint]] or rigid [[body]]"),
+        );
+    }
 }

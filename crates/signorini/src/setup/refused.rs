@@ -190,7 +190,7 @@ fn of_contact_error<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
         ModelError::BothRigid { contact } => (
             &codes::BAD_SIDES,
             contact,
-            "give one of the bodies a `material`, or:  enforcement = { penalty = 1e5 }",
+            "let one of the bodies deform, or:  enforcement = { penalty = 1e5 }",
         ),
         ModelError::Unsuited { contact, .. } => (&codes::BAD_SIDES, contact, ""),
         ModelError::NoDualBasis { contact, .. } => (
@@ -332,6 +332,7 @@ fn of_load_error(error: &LoadError) -> (&'static Code, &'static str) {
             &codes::WRONG_KIND,
             "name something that this load can act on",
         ),
+        LoadError::Massless => (&codes::MISSING, "write a [[mass]] on it"),
         LoadError::NoDensity { .. } => (&codes::MISSING, "write  density =  in its [material]"),
         LoadError::NoArm => (
             &codes::BAD_LOAD,

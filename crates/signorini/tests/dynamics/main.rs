@@ -15,6 +15,7 @@ mod bar;
 mod common;
 mod impact;
 
+mod rigid;
 use bar::{Bar, LENGTH, WAVE};
 use signorini::{Finished, News, Reading, RunOptions, build, open_text, run};
 use signorini_io::fs::{Fs, MemoryFs};
@@ -421,7 +422,10 @@ fn what_a_dynamic_step_needs_is_said() {
         .replace("material = \"m\"\n[sets]", "rigid = true\n[sets]")
         .replace("fix = [{ on = \"bar\", u = [\"y\"] }]", "");
     let refused = refusal(&rigid);
-    assert!(refused.contains("a rigid body has no mass"), "{refused}");
+    assert!(
+        refused.contains("without mass has no velocity"),
+        "{refused}"
+    );
     let thin = Bar {
         elements: 2,
         dynamics: "contact_mass = \"redistributed\"",

@@ -193,7 +193,6 @@ impl Builder<'_> {
             );
         }
         let of_solids = [
-            "material",
             "integration",
             "locking",
             "orientation",

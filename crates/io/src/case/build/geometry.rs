@@ -23,6 +23,46 @@ impl Builder<'_> {
         at.collect()
     }
 
+    /// Masses at nodes and of references.
+    pub(super) fn masses_at(&mut self, root: &Fields<'_>) -> Vec<MassAt> {
+        let tables = root.tables("mass").into_iter();
+        let at = tables.map(|(fields, place)| MassAt {
+            on: fields.text("on"),
+            value: fields.number("value"),
+            centroid: (self.vector_within(fields, "centroid"))
+                .map(|at| Spanned::new(at, fields.place("centroid"))),
+            inertia: self
+                .inertia(fields)
+                .map(|of| Spanned::new(of, fields.place("inertia"))),
+            place,
+        });
+        at.collect()
+    }
+
+    /// Moments of inertia: a number in the plane.
+    fn inertia(&mut self, fields: Fields<'_>) -> Option<[f64; 6]> {
+        if !fields.has("inertia") {
+            return None;
+        }
+        let (is_plane, place) = (self.space.ndim() == 2, fields.place("inertia"));
+        let numbers = fields
+            .numbers_if("inertia")
+            .map_or_else(Vec::new, |of| of.value);
+        let fault = match (fields.number_if("inertia"), &numbers[..], is_plane) {
+            (Some(number), _, true) if self.space != Space::Axisymmetric => {
+                return Some([0.0, 0.0, number.value, 0.0, 0.0, 0.0]);
+            }
+            (None, &[xx, yy, zz], false) => return Some([xx, yy, zz, 0.0, 0.0, 0.0]),
+            (None, &[xx, yy, zz, xy, xz, yz], false) => return Some([xx, yy, zz, xy, xz, yz]),
+            (_, _, false) => "write  inertia = [xx, yy, zz]  or all six",
+            (None, _, true) => "write a number:  inertia = ",
+            (Some(_), _, true) => "bodies of revolution do not turn",
+        };
+        let message = "`inertia` does not go with the dimension of the model";
+        self.error(&codes::CONTRADICTION, message, &place, fault);
+        None
+    }
+
     /// An angular velocity: a number in the plane.
     fn spin(&mut self, fields: Fields<'_>) -> [f64; 3] {
         let (is_plane, place) = (self.space.ndim() == 2, fields.place("omega"));
@@ -357,17 +397,6 @@ pub(super) fn at_points(fields: Fields<'_>, key: &str) -> Vec<AtPoint> {
 pub(super) fn thicknesses_at(root: &Fields<'_>) -> Vec<ThicknessAt> {
     let tables = root.tables("thickness").into_iter();
     let at = tables.map(|(fields, place)| ThicknessAt {
-        on: fields.text("on"),
-        value: fields.number("value"),
-        place,
-    });
-    at.collect()
-}
-
-/// Masses at nodes.
-pub(super) fn masses_at(root: &Fields<'_>) -> Vec<MassAt> {
-    let tables = root.tables("mass").into_iter();
-    let at = tables.map(|(fields, place)| MassAt {
         on: fields.text("on"),
         value: fields.number("value"),
         place,

@@ -19,7 +19,7 @@ use super::vocabulary::Vocabulary;
 use crate::diagnostic::{Code, Diagnostics, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
 use builder::Builder;
-use geometry::{at_points, masses_at, temperatures_at, thicknesses_at};
+use geometry::{at_points, temperatures_at, thicknesses_at};
 use run::{expectation, output};
 use toml::de::DeTable;
 
@@ -137,7 +137,7 @@ impl Builder<'_> {
             initial_temperature: root.table("initial").number_if("temperature"),
             initial_temperatures: temperatures_at(root.table("initial")),
             initial_velocities: self.velocities_at(root.table("initial")),
-            masses: masses_at(&root),
+            masses: self.masses_at(&root),
             initial_stress: at_points(root.table("initial"), "stress"),
             initial_strain: at_points(root.table("initial"), "strain"),
             steps: root

@@ -147,7 +147,7 @@ pub enum Hardening {
 pub struct Body {
     /// The groups.
     pub groups: Vec<Name>,
-    /// The material; none for a rigid body.
+    /// The material; of a rigid body that whose density it has, if any.
     pub material: Option<Name>,
     /// How many quadrature points an element has.
     pub integration: Integration,
@@ -189,13 +189,17 @@ pub enum MassMatrix {
     Lumped,
 }
 
-/// A mass at each of some nodes.
+/// A mass at each of some nodes, or of a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassAt {
-    /// The nodes.
+    /// The nodes, or the reference or rigid body.
     pub on: Name,
-    /// The mass at each.
+    /// The mass: at each of these nodes.
     pub value: f64,
+    /// Its centroid at the start, of a reference; none: there.
+    pub centroid: Option<Spanned<[f64; 3]>>,
+    /// Moments of inertia about the centroid, of a reference: xx, yy, zz, xy, xz, yz.
+    pub inertia: Option<Spanned<[f64; 6]>>,
     /// Where it was written.
     pub place: Place,
 }

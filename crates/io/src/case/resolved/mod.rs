@@ -69,7 +69,10 @@ fn tree(case: &Case) -> Entries {
         ),
         ("body", tables(&case.bodies, body)),
         ("thickness", tables(&case.thicknesses, thickness)),
-        ("mass", tables(&case.masses, mass)),
+        (
+            "mass",
+            tables(&case.masses, |one| mass(one, case.model.space.ndim() == 2)),
+        ),
         ("spring", tables(&case.springs, spring)),
         ("surface", tables(&case.surfaces, surface)),
         ("contact", contacts(case)),

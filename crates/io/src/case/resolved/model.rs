@@ -126,8 +126,19 @@ pub(super) fn thickness(one: &ThicknessAt) -> Entries {
     vec![("on", (&one.on.value).into()), ("value", one.value.into())]
 }
 
-pub(super) fn mass(one: &MassAt) -> Entries {
-    vec![("on", (&one.on.value).into()), ("value", one.value.into())]
+pub(super) fn mass(one: &MassAt, plane: bool) -> Entries {
+    let mut entries = vec![("on", (&one.on.value).into()), ("value", one.value.into())];
+    let centroid = one.centroid.as_ref();
+    entries.extend(centroid.map(|at| ("centroid", (&at.value).into())));
+    entries.extend(one.inertia.as_ref().map(|of| {
+        let about = if plane {
+            of.value[2].into()
+        } else {
+            Value::List(of.value.into_iter().map(Value::from).collect())
+        };
+        ("inertia", about)
+    }));
+    entries
 }
 
 fn velocity(one: &VelocityAt, plane: bool) -> Value {

@@ -95,7 +95,7 @@ pub(super) static BODY: Table = Table {
         key(
             "material",
             Shape::Text,
-            "its material; none for a rigid body",
+            "its material; a rigid body has the density of it, and no other property",
         ),
         key(
             "integration",
@@ -347,12 +347,30 @@ const COMPONENT: Shape = Shape::Choice(&[
 
 pub(super) static MASS: Table = Table {
     heading: "[[mass]]",
-    doc: "masses at nodes, in dynamic steps",
+    doc: "masses at nodes, of references and rigid bodies, in dynamic steps; masses of one reference add up",
     keys: &[
-        key("on", Shape::Text, "the set or group")
+        key("on", Shape::Text, "the set, group, reference or rigid body")
             .required()
-            .hints(&["set", "group", "nodes"]),
-        key("value", POSITIVE, "the mass at each of its nodes").required(),
+            .hints(&["set", "group", "nodes", "reference"]),
+        key(
+            "value",
+            POSITIVE,
+            "the mass: at each node of a set, or of the reference",
+        )
+        .required()
+        .hints(&["mass"]),
+        key(
+            "centroid",
+            VECTOR,
+            "centroid of the mass of a reference at the start; absent: at the reference",
+        )
+        .hints(&["at", "center"]),
+        key(
+            "inertia",
+            Shape::Either(&[POSITIVE, Shape::List(&ANY, 3, 6)]),
+            "moments of inertia of the mass of a reference about its centroid (mass length²), [xx, yy, zz] or [xx, yy, zz, xy, xz, yz] \
+             with the signs of a matrix; a number in the plane",
+        ),
     ],
     rules: &[],
 };

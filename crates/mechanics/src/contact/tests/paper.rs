@@ -57,7 +57,10 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
             BodyPart {
                 name: "tool".into(),
                 cells: vec![tool],
-                kind: BodyKind::Rigid(0),
+                kind: BodyKind::Rigid {
+                    carrier: 0,
+                    density: None,
+                },
             },
         ],
         steps: vec![StepPart {

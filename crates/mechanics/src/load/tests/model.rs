@@ -451,7 +451,10 @@ fn lid(mesh: &Mesh, soft: CellId, hard: CellId, step: StepPart) -> Model {
     let rigid = BodyPart {
         name: "lid".into(),
         cells: vec![hard],
-        kind: BodyKind::Rigid(0),
+        kind: BodyKind::Rigid {
+            carrier: 0,
+            density: None,
+        },
     };
     let parts = Parts {
         bodies: vec![solid("cube", vec![soft], None), rigid],

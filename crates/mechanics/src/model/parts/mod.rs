@@ -12,7 +12,7 @@ use crate::solve::{Increments, Motion};
 use crate::system::{CellChange, Idealisation, Scheme};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Sym3, Vec3};
 use std::sync::Arc;
 
 /// Everything a model is made of.
@@ -38,6 +38,10 @@ pub struct Parts<'a> {
     /// Masses at nodes.
     pub masses: Vec<(NodeId, f64)>,
     /// The steps.
+    /// Masses of carriers, besides those of their rigid bodies.
+    pub carrier_masses: Vec<CarrierMass>,
+    /// How carriers move at the start.
+    pub carrier_velocities: Vec<CarrierVelocity>,
     pub steps: Vec<StepPart>,
     /// Whether viscous forces hold bodies that nothing but contact stops.
     pub stabilize: bool,
@@ -65,6 +69,8 @@ impl<'a> Parts<'a> {
             velocity: Vec::new(),
             masses: Vec::new(),
             steps: Vec::new(),
+            carrier_masses: Vec::new(),
+            carrier_velocities: Vec::new(),
             stabilize: true,
             hold_free: false,
             gap_tol: 1e-6,
@@ -146,8 +152,13 @@ pub enum BodyKind {
         /// Whether strains are small in all steps.
         small: bool,
     },
-    /// A rigid body that moves with a carrier.
-    Rigid(RigidId),
+    /// A rigid body.
+    Rigid {
+        /// What it moves with.
+        carrier: RigidId,
+        /// Mass per volume, where it has one.
+        density: Option<f64>,
+    },
 }
 
 impl BodyKind {
@@ -175,7 +186,7 @@ impl BodyKind {
     pub fn space(&self, of_model: Idealisation) -> Idealisation {
         match self {
             Self::Solid { space, .. } => space.unwrap_or(of_model),
-            Self::Truss { .. } | Self::Rigid(_) => of_model,
+            Self::Truss { .. } | Self::Rigid { .. } => of_model,
         }
     }
 
@@ -184,7 +195,7 @@ impl BodyKind {
     pub fn profile(&self) -> Option<&Arc<[f64]>> {
         match self {
             Self::Solid { profile, .. } => profile.as_ref(),
-            Self::Truss { .. } | Self::Rigid(_) => None,
+            Self::Truss { .. } | Self::Rigid { .. } => None,
         }
     }
 
@@ -193,7 +204,7 @@ impl BodyKind {
     pub fn material(&self) -> Option<&dyn Material> {
         match self {
             Self::Solid { material, .. } | Self::Truss { material, .. } => Some(material.as_ref()),
-            Self::Rigid(_) => None,
+            Self::Rigid { .. } => None,
         }
     }
 }
@@ -208,6 +219,32 @@ pub struct CarrierPart {
 }
 
 /// A spring. Its elongation is measured along `direction`, or along the line between its ends, which turns with them.
+/// A mass that moves with a carrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CarrierMass {
+    /// The carrier.
+    pub carrier: RigidId,
+    /// The mass.
+    pub mass: f64,
+    /// Its centroid at the start; none: at the carrier.
+    pub centroid: Option<Vec3>,
+    /// Moments of inertia about the centroid, along the axes of the frame.
+    pub inertia: Sym3,
+}
+
+/// How a carrier moves at the start, as a rigid body does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CarrierVelocity {
+    /// The carrier.
+    pub carrier: RigidId,
+    /// The velocity at `about`.
+    pub velocity: Vec3,
+    /// Angular velocity (radian per time).
+    pub spin: Vec3,
+    /// A point of the axis of the angular velocity.
+    pub about: Vec3,
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringPart {
     /// Its name.

@@ -236,7 +236,8 @@ impl Bar {
             body: vec![0; mesh.nnode()],
             between: Vec::new(),
             ncell: vec![cells.len()],
-            velocity: Vec::new(),
+            heavy: Arc::new([]),
+            rates: None,
             wanted: crate::system::Wanted::default(),
             reference,
         }

@@ -347,7 +347,8 @@ fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
         body: vec![0; nnode],
         between: Vec::new(),
         ncell: Vec::new(),
-        velocity: Vec::new(),
+        heavy: Arc::new([]),
+        rates: None,
         wanted: crate::system::Wanted::default(),
     }
 }

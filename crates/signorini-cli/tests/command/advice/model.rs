@@ -169,7 +169,7 @@ fn sides_that_are_both_rigid() {
             "both sides are rigid",
             "case.toml:",
         ],
-        help: "give one of the bodies a `material`, or:  enforcement",
+        help: "let one of the bodies deform, or:  enforcement",
         remedy: Remedy::Key,
         gone: None,
     }

@@ -288,7 +288,7 @@ impl Known {
         let part = of.and_then(|(_, body)| source.bodies.get(body));
         let body = bodies.get(facet as usize).copied().unwrap_or(u32::MAX);
         let label = of.and_then(|(group, _)| self.places.get(&(group, body)).copied());
-        let is_rigid = part.is_some_and(|part| matches!(part.kind, BodyKind::Rigid(_)));
+        let is_rigid = part.is_some_and(|part| matches!(part.kind, BodyKind::Rigid { .. }));
         let normal = skin.middle(&source.mesh.points, facet).1;
         let material = part.and_then(|part| part.kind.material());
         Side {

@@ -20,7 +20,7 @@ fn references_carry_rigid_bodies_and_nodes() {
     assert_eq!(names, ["pilot", "corner", "bar"]);
     assert_eq!(built.carriers[1].at, Some(Vec3::new(0.0, 1.0, 2.0)));
     assert_eq!(built.carriers[2].at, None);
-    let rigid = |n: usize| matches!(built.bodies[n].kind, BodyKind::Rigid(c) if c == [9, 0, 2][n]);
+    let rigid = |n: usize| matches!(built.bodies[n].kind, BodyKind::Rigid { carrier: c, .. } if c == [9, 0, 2][n]);
     assert!(rigid(1) && rigid(2));
     assert!(matches!(
         &built.constraints[0].kind,

@@ -399,7 +399,10 @@ fn three_prescribed_turns_bring_a_rigid_body_back() {
         let body = BodyPart {
             name: "tool".into(),
             cells: rigid.clone(),
-            kind: BodyKind::Rigid(0),
+            kind: BodyKind::Rigid {
+                carrier: 0,
+                density: None,
+            },
         };
         let ran = run(Parts {
             bodies: vec![solid("cube", cells.clone()), body],

@@ -88,7 +88,10 @@ fn cubic_on_square(part: &ContactPart) -> Result<(), ModelError> {
     let rigid = BodyPart {
         name: "cubic".into(),
         cells: vec![mesh.push_cell(triangle, &nodes, 2)],
-        kind: BodyKind::Rigid(0),
+        kind: BodyKind::Rigid {
+            carrier: 0,
+            density: None,
+        },
     };
     let carrier = CarrierPart {
         name: "cubic".into(),

@@ -1,0 +1,289 @@
+//! The inertia of rigid bodies.
+
+use crate::system::{
+    BodyRates, Dof, Frame, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties,
+    RigidMass, Role, Scheme, Sink, State, Symmetry, Term, TermError, Work,
+};
+use signorini_geometry::tensor::{Mat3, Vec3};
+use std::sync::Arc;
+
+/// Bodies evaluated together.
+const CHUNK: usize = 64;
+
+/// The inertia of rigid bodies with a mass: (E5), (E6).
+pub struct RigidInertia {
+    layout: Layout,
+    pub(super) bodies: Arc<[RigidMass]>,
+    step: Option<Scheme>,
+    /// The length of the increment; 0 where none has begun.
+    h: f64,
+    /// The state at the start of the increment.
+    from: Option<State>,
+    /// Rates there, of each body.
+    rates: Vec<BodyRates>,
+    /// Kinetic energy at the start of the run.
+    at_start: f64,
+}
+
+/// Force and moment about the reference point, and their derivatives with respect to translation and rotation, by blocks.
+struct Wrench {
+    parts: [Vec3; 2],
+    slopes: [[Mat3; 2]; 2],
+}
+
+impl RigidInertia {
+    /// That of these bodies, which have these rates at the start of the run.
+    #[must_use]
+    pub fn new(layout: Layout, bodies: Arc<[RigidMass]>, rates: &[BodyRates]) -> Self {
+        let energies = bodies.iter().zip(rates);
+        Self {
+            layout,
+            step: None,
+            h: 0.0,
+            from: None,
+            rates: vec![BodyRates::default(); bodies.len()],
+            at_start: energies.map(|(body, rates)| body.kinetic(rates)).sum(),
+            bodies,
+        }
+    }
+
+    fn dofs(&self, body: &RigidMass) -> [Dof; 6] {
+        std::array::from_fn(|k| match k {
+            0..3 => self.layout.translation(body.carrier, k),
+            _ => self.layout.rotation(body.carrier, k - 3),
+        })
+    }
+
+    /// Whether all stiffness is symmetric: where motions are small, and in the plane about the centroid.
+    fn is_symmetric(&self) -> bool {
+        let is_small = self.from.as_ref().is_none_or(|from| from.is_small);
+        let is_central = || self.bodies.iter().all(|body| body.arm == Vec3::ZERO);
+        is_small || self.layout.ndim() < 3 && is_central()
+    }
+
+    /// The rounding errors of force and moment: those of positions and angles, times what a way makes of them.
+    fn rounding(
+        &self,
+        body: &RigidMass,
+        rates: &BodyRates,
+        scheme: &Scheme,
+        from: &State,
+    ) -> [f64; 2] {
+        let h = self.h;
+        let slope = (1.0 - scheme.alpha_m) / (scheme.beta * h * h);
+        let pose = from.poses.get(body.carrier as usize);
+        let place = pose.map_or(0.0, |pose| pose.origin.max_abs());
+        let far = place + body.arm.norm() + h * rates.velocity.norm();
+        let force = f64::EPSILON * body.mass * slope * far;
+        let inertia = body.inertia.trace().abs();
+        let angle = 1.0 + h * rates.spin.norm();
+        let about = inertia * (slope * angle + rates.spin.norm_squared());
+        [force, f64::EPSILON * about + force * body.arm.norm()]
+    }
+
+    /// Mass, and what turning with the present angular velocity needs: where a step begins.
+    fn at_rest(&self, body: &RigidMass, rates: &BodyRates, state: &State) -> Wrench {
+        let rotation = body.rotation(state);
+        let arm = rotation * body.arm;
+        let (inertia, spin) = (body.inertia.to_mat3(), rates.spin);
+        let (mut inward, mut gyroscopic) = (Vec3::ZERO, Vec3::ZERO);
+        if !state.is_small {
+            let turning = rotation * spin;
+            inward = turning.cross(turning.cross(arm)) * body.mass;
+            gyroscopic = rotation * spin.cross(inertia * spin);
+        }
+        let lever = Mat3::skew(arm);
+        let inertia = rotation * inertia * rotation.transpose();
+        Wrench {
+            parts: [inward, arm.cross(inward) + gyroscopic],
+            slopes: [
+                [Mat3::IDENTITY * body.mass, lever * -body.mass],
+                [lever * body.mass, inertia - lever * lever * body.mass],
+            ],
+        }
+    }
+
+    /// (E5) at a state between the ends of the increment, with the derivative (E6) against its end.
+    fn between(
+        &self,
+        body: &RigidMass,
+        rates: &BodyRates,
+        scheme: &Scheme,
+        [from, trial]: [&State; 2],
+    ) -> Wrench {
+        let h = self.h;
+        let turns = trial.between.as_ref().map(|between| &between.turn);
+        let moved = turns.and_then(|turns| turns.get(body.carrier as usize).copied());
+        let way = body.way(from, moved.unwrap_or_default());
+        let (left, right) = (1.0 - scheme.alpha_f, scheme.alpha_f);
+        let [first, last] = way.arms;
+        let arm = last * left + first * right;
+        let end = rates.advanced(scheme, h, &way);
+        let mean = |last: Vec3, first: Vec3| last * (1.0 - scheme.alpha_m) + first * scheme.alpha_m;
+        let slope = (1.0 - scheme.alpha_m) / (scheme.beta * h * h);
+
+        let force = mean(end.acceleration, rates.acceleration) * body.mass;
+        let weight = body.mass * slope;
+        let (lever, lever_end) = (Mat3::skew(arm), Mat3::skew(last));
+
+        let inertia = body.inertia.to_mat3();
+        let mut torque = inertia * mean(end.spin_rate, rates.spin_rate);
+        let mut stiffness = inertia * slope;
+        if !from.is_small {
+            let gyroscopic = |spin: Vec3| spin.cross(inertia * spin);
+            torque = torque + gyroscopic(end.spin) * left + gyroscopic(rates.spin) * right;
+            let spin = Mat3::skew(end.spin) * inertia - Mat3::skew(inertia * end.spin);
+            stiffness = stiffness + spin * (left * scheme.gamma / (scheme.beta * h));
+            // dΨ for a rotation of the end in its own axes, and what that does to the rotation between
+            let tangent = inverse_tangent(way.turn);
+            let share = self::tangent(way.turn * left) * tangent * left;
+            let rotation = way.start * Mat3::rotation(way.turn * left);
+            let back = (way.start * Mat3::rotation(way.turn)).transpose();
+            stiffness = rotation * (stiffness * tangent - Mat3::skew(torque) * share) * back;
+            torque = rotation * torque;
+        }
+        let turning = if from.is_small {
+            Mat3::ZERO
+        } else {
+            Mat3::skew(force) * lever_end * left
+        };
+        Wrench {
+            parts: [force, arm.cross(force) + torque],
+            slopes: [
+                [Mat3::IDENTITY * weight, lever_end * -weight],
+                [
+                    lever * weight,
+                    stiffness + turning - lever * lever_end * weight,
+                ],
+            ],
+        }
+    }
+}
+
+/// T(Ψ): `exp(Ψ + dΨ) = exp(Ψ) exp(T dΨ)`.
+fn tangent(turn: Vec3) -> Mat3 {
+    let (squared, k) = (turn.norm_squared(), Mat3::skew(turn));
+    let angle = squared.sqrt();
+    let (a, b) = if angle < 1e-3 {
+        (0.5 - squared / 24.0, 1.0 / 6.0 - squared / 120.0)
+    } else {
+        let half = (0.5 * angle).sin() / angle;
+        (2.0 * half * half, (angle - angle.sin()) / (squared * angle))
+    };
+    Mat3::IDENTITY - k * a + k * k * b
+}
+
+/// T⁻¹(Ψ), for less than a whole turn.
+fn inverse_tangent(turn: Vec3) -> Mat3 {
+    let (squared, k) = (turn.norm_squared(), Mat3::skew(turn));
+    let angle = squared.sqrt();
+    let c = if angle < 1e-3 {
+        1.0 / 12.0 + squared / 720.0
+    } else {
+        1.0 / squared - 0.5 / (angle * (0.5 * angle).tan())
+    };
+    Mat3::IDENTITY + k * 0.5 + k * k * c
+}
+
+impl Term for RigidInertia {
+    fn name(&self) -> &str {
+        "inertia of rigid bodies"
+    }
+
+    fn properties(&self) -> Properties {
+        let (symmetry, lifetime) = match self.is_symmetric() {
+            true => (Symmetry::Definite, Lifetime::Increment),
+            false => (Symmetry::Unsymmetric, Lifetime::State),
+        };
+        Properties {
+            lifetime,
+            to_end: true,
+            ..Properties::new(symmetry, Part::Interface).with_role(Role::Inertia)
+        }
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        for body in self.bodies.iter().filter(|_| self.step.is_some()) {
+            out.interface(&self.dofs(body));
+        }
+    }
+
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
+        self.step = phase.step.scheme;
+        self.h = phase.dt();
+        self.from = Some(State {
+            rates: None,
+            ..from.clone()
+        });
+        match from.rates.as_ref().filter(|_| self.step.is_some()) {
+            Some(rates) => self.rates.clone_from(&rates.bodies),
+            None => self.rates.fill(BodyRates::default()),
+        }
+        Ok(())
+    }
+
+    fn nchunk(&self) -> usize {
+        match self.step {
+            Some(_) => self.bodies.len().div_ceil(CHUNK),
+            None => 0,
+        }
+    }
+
+    fn evaluate(
+        &self,
+        chunk: usize,
+        trial: &State,
+        order: Order,
+        _: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let all = self.bodies.iter().zip(&self.rates);
+        for (body, rates) in all.skip(chunk * CHUNK).take(CHUNK) {
+            let begun = self.step.as_ref().filter(|_| self.h > 0.0);
+            let wrench = match begun.zip(self.from.as_ref()) {
+                Some((scheme, from)) => self.between(body, rates, scheme, [from, trial]),
+                None => self.at_rest(body, rates, trial),
+            };
+            let force: [f64; 6] = std::array::from_fn(|k| wrench.parts[k / 3][k % 3]);
+            let mut stiffness = [0.0; 36];
+            if order == Order::Tangent {
+                for (k, value) in stiffness.iter_mut().enumerate() {
+                    let (i, j) = (k / 6, k % 6);
+                    *value = wrench.slopes[i / 3][j / 3].rows[i % 3][j % 3];
+                }
+            }
+            let dofs = self.dofs(body);
+            if let (Some(scheme), Some(from)) = (begun, self.from.as_ref()) {
+                let [along, about] = self.rounding(body, rates, scheme, from);
+                out.uncertain(&dofs[..3], along);
+                out.uncertain(&dofs[3..], about);
+            }
+            match order {
+                Order::Tangent => out.add(&dofs, &force, &stiffness),
+                Order::Residual => out.add(&dofs, &force, &[]),
+            }
+        }
+        Ok(())
+    }
+
+    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
+        // a motion in time has no potential
+        Ok(None)
+    }
+
+    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        let Some(rates) = &state.rates else {
+            return Ok(());
+        };
+        let energies = frame.energies.get_or_insert_default();
+        energies.kinetic_at_start += self.at_start;
+        for (body, rates) in self.bodies.iter().zip(&rates.bodies) {
+            energies.kinetic += body.kinetic(rates);
+            if let Some(rigid) = frame.rigid.get_mut(body.carrier as usize) {
+                [rigid.velocity, _] = body.at(state, rates, Vec3::ZERO);
+                rigid.angular_velocity = body.rotation(state) * rates.spin;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,198 @@
+//! How rigid bodies with a mass move in time: their centroids as nodes do, and rotations about these.
+//!
+//! With the rotations `R₀` and `R₁` at the ends of an increment, `R₁ = R₀ exp(Ψ)`, the vector `Ψ` and angular velocities `Ω` and
+//! accelerations `A` in axes that turn with the body follow one another as `Δd`, `v` and `a` do in (E5) of `motion`:
+//!
+//! ```text
+//! s = x + R s₀        Δs = Δx + (R₁ − R₀) s₀        Ψ = log(R₀ᵀ R₁)                               (E8)
+//! A₁ = (Ψ − h Ω₀ − h² (½ − β) A₀)/(β h²)        Ω₁ = Ω₀ + h ((1 − γ) A₀ + γ A₁)                   (E9)
+//! ```
+//!
+//! with the centroid `s`, its arm `s₀` from the reference point `x` at the start. Where motions are small, `R = 1` and `Ψ = Δθ`.
+//!
+//! Source: Brüls and Cardona, J. Comput. Nonlinear Dyn. 5, 2010.
+
+use super::{Layout, Scheme, State};
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
+
+/// The mass of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidMass {
+    /// What it moves with.
+    pub carrier: RigidId,
+    /// Its mass.
+    pub mass: f64,
+    /// From the reference point of the carrier to its centroid, at the start.
+    pub arm: Vec3,
+    /// Its moments of inertia about the centroid, along the axes of the frame at the start: those that turn with it.
+    pub inertia: Sym3,
+}
+
+/// How a rigid body with a mass moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyRates {
+    /// Of its centroid.
+    pub velocity: Vec3,
+    /// Of its centroid, at the time of (E7) of `motion`.
+    pub acceleration: Vec3,
+    /// Angular velocity Ω, along axes that turn with the body (radian per time).
+    pub spin: Vec3,
+    /// Angular acceleration A, likewise.
+    pub spin_rate: Vec3,
+}
+
+/// How a carrier gets from one state to another: its translation, and the rotation vector between.
+pub fn moved(layout: &Layout, [from, to]: [&State; 2], carrier: RigidId) -> [Vec3; 2] {
+    let (Some(start), Some(end)) = (
+        from.poses.get(carrier as usize),
+        to.poses.get(carrier as usize),
+    ) else {
+        return [Vec3::ZERO; 2];
+    };
+    let turn = if to.is_small {
+        let angle = |axis: usize| {
+            let dof = layout.rotation(carrier, axis) as usize;
+            let ends = to.u.get(dof).zip(from.u.get(dof));
+            ends.map_or(0.0, |(to, from)| to - from)
+        };
+        Vec3::new(angle(0), angle(1), angle(2))
+    } else {
+        (end.rotation * start.rotation.transpose()).rotation_vector()
+    };
+    [end.origin - start.origin, turn]
+}
+
+/// The way of a rigid body in an increment (E8).
+#[derive(Clone, Copy, Debug)]
+pub struct BodyWay {
+    /// Δs.
+    pub centroid: Vec3,
+    /// Ψ.
+    pub turn: Vec3,
+    /// R s₀ at both ends.
+    pub arms: [Vec3; 2],
+    /// R₀; 1 where motions are small.
+    pub start: Mat3,
+}
+
+impl RigidMass {
+    /// Its moments of inertia about the reference point, at the start.
+    #[must_use]
+    pub fn about_reference(&self) -> Sym3 {
+        let square = self.mass * self.arm.norm_squared();
+        let along = Sym3::symmetric_part(Mat3::outer(self.arm, self.arm)) * self.mass;
+        self.inertia + Sym3::diagonal(square, square, square) - along
+    }
+
+    /// Its way from an accepted state with this translation and rotation vector of its carrier, see [`moved`].
+    #[must_use]
+    pub fn way(&self, from: &State, [translation, turn]: [Vec3; 2]) -> BodyWay {
+        if from.is_small {
+            return BodyWay {
+                centroid: translation + turn.cross(self.arm),
+                turn,
+                arms: [self.arm; 2],
+                start: Mat3::IDENTITY,
+            };
+        }
+        let start = self.rotation(from);
+        let arm = start * self.arm;
+        let arms = [arm, Mat3::rotation(turn) * arm];
+        BodyWay {
+            centroid: translation + arms[1] - arms[0],
+            turn: start.transpose() * turn,
+            arms,
+            start,
+        }
+    }
+
+    /// R at a state; 1 where motions are small.
+    #[must_use]
+    pub fn rotation(&self, state: &State) -> Mat3 {
+        let pose = state.poses.get(self.carrier as usize);
+        let turned = pose.filter(|_| !state.is_small);
+        turned.map_or(Mat3::IDENTITY, |pose| pose.rotation)
+    }
+
+    /// What it has of a motion of its reference point and about it: rates of the centroid. Angular velocity and acceleration
+    /// are those in space.
+    #[must_use]
+    pub fn rates(
+        &self,
+        state: &State,
+        [velocity, spin]: [Vec3; 2],
+        [acceleration, spin_rate]: [Vec3; 2],
+    ) -> BodyRates {
+        let rotation = self.rotation(state);
+        let (arm, back) = (rotation * self.arm, rotation.transpose());
+        let inward = if state.is_small {
+            Vec3::ZERO
+        } else {
+            spin.cross(spin.cross(arm))
+        };
+        BodyRates {
+            velocity: velocity + spin.cross(arm),
+            acceleration: acceleration + spin_rate.cross(arm) + inward,
+            spin: back * spin,
+            spin_rate: back * spin_rate,
+        }
+    }
+
+    /// The velocity and acceleration of a point that is fixed to it at `arm` from the reference point, at a state.
+    #[must_use]
+    pub fn at(&self, state: &State, rates: &BodyRates, arm: Vec3) -> [Vec3; 2] {
+        let rotation = self.rotation(state);
+        let away = arm - rotation * self.arm;
+        let (spin, spin_rate) = (rotation * rates.spin, rotation * rates.spin_rate);
+        let inward = if state.is_small {
+            Vec3::ZERO
+        } else {
+            spin.cross(spin.cross(away))
+        };
+        let velocity = rates.velocity + spin.cross(away);
+        [
+            velocity,
+            rates.acceleration + spin_rate.cross(away) + inward,
+        ]
+    }
+
+    /// ½ m v·v + ½ Ω·J Ω.
+    #[must_use]
+    pub fn kinetic(&self, rates: &BodyRates) -> f64 {
+        let turning = rates.spin.dot(self.inertia.to_mat3() * rates.spin);
+        0.5 * (self.mass * rates.velocity.norm_squared() + turning)
+    }
+}
+
+impl BodyRates {
+    /// Those at the end of an increment of length `h` (E9).
+    #[must_use]
+    pub fn advanced(&self, scheme: &Scheme, h: f64, way: &BodyWay) -> Self {
+        let acceleration = scheme.acceleration(way.centroid, h, self.velocity, self.acceleration);
+        let spin_rate = scheme.acceleration(way.turn, h, self.spin, self.spin_rate);
+        Self {
+            velocity: scheme.velocity(h, self.velocity, [self.acceleration, acceleration]),
+            acceleration,
+            spin: scheme.velocity(h, self.spin, [self.spin_rate, spin_rate]),
+            spin_rate,
+        }
+    }
+
+    /// As numbers, for archives.
+    #[must_use]
+    pub fn to_vectors(&self) -> [Vec3; 4] {
+        [self.velocity, self.acceleration, self.spin, self.spin_rate]
+    }
+
+    /// The inverse of [`BodyRates::to_vectors`].
+    #[must_use]
+    pub const fn from_vectors([velocity, acceleration, spin, spin_rate]: [Vec3; 4]) -> Self {
+        Self {
+            velocity,
+            acceleration,
+            spin,
+            spin_rate,
+        }
+    }
+}

@@ -1,0 +1,374 @@
+//! Rigid bodies with a mass: free, on a pivot, in contact.
+
+use super::{Table, refusal, solved, stopped_after};
+use std::fmt::Write;
+
+/// A rigid cube that moves with its centre, and what moves it.
+struct Cube {
+    mass: f64,
+    inertia: &'static str,
+    /// Besides `mass` and `inertia`.
+    centroid: &'static str,
+    velocity: &'static str,
+    duration: f64,
+    increments: usize,
+    step: &'static str,
+}
+
+impl Cube {
+    fn text(&self) -> String {
+        let mut nodes = String::new();
+        for k in 0..8 {
+            let at = |bit: usize| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
+            write!(
+                nodes,
+                "[{}, {:?}, {:?}, {:?}], ",
+                k + 1,
+                at(0),
+                at(1),
+                at(2)
+            )
+            .unwrap();
+        }
+        format!(
+            "[mesh]\nnodes = [{nodes}]\n\
+             elements = [{{ id = 1, type = \"hex8\", group = \"cube\", nodes = [1, 2, 4, 3, 5, 6, 8, 7] }}]\n\
+             [model]\nspace = \"3d\"\n[reference.pilot]\nat = [0, 0, 0]\n\
+             [[body]]\ngroup = \"cube\"\nrigid = true\nreference = \"pilot\"\n\
+             [[mass]]\non = \"pilot\"\nvalue = {:?}\ninertia = {}\n{}\n\
+             [initial]\nvelocity = [{{ on = \"pilot\", {} }}]\n\
+             [[step]]\nname = \"fly\"\nkind = \"dynamic\"\nduration = {:?}\nincrements = {{ fixed = {} }}\n{}\n",
+            self.mass,
+            self.inertia,
+            self.centroid,
+            self.velocity,
+            self.duration,
+            self.increments,
+            self.step,
+        )
+    }
+}
+
+fn vector(of: &Table, name: &str, row: usize) -> [f64; 3] {
+    ["x", "y", "z"].map(|axis| of[&format!("pilot.{name}_{axis}")][row])
+}
+
+/// R of a rotation vector.
+fn rotation([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
+    let theta = signorini_geometry::tensor::Vec3::new(x, y, z);
+    let rows = signorini_geometry::tensor::Mat3::rotation(theta).rows;
+    rows.map(|row| row.to_array())
+}
+
+fn times(m: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    m.map(|row| row.iter().zip(v).map(|(a, b)| a * b).sum())
+}
+
+fn transposed(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+    squares.sum::<f64>().sqrt()
+}
+
+/// Angular velocity along the axes of the body at the end.
+fn spin(of: &Table) -> [f64; 3] {
+    let last = of["time"].len() - 1;
+    let turned = rotation(vector(of, "rotation", last));
+    times(transposed(turned), vector(of, "angular_velocity", last))
+}
+
+/// A free body turns as Jacobi's elliptic functions say, to second order in the increment, and keeps energy and angular momentum to
+/// that order (`reference/dynamics/rigid_rotation.json`); its centroid goes straight on.
+#[test]
+fn a_free_body_turns_as_elliptic_functions_say() {
+    let wanted = [
+        0.234_294_084_052_856_1,
+        -0.972_165_668_877_836_5,
+        1.060_643_471_015_299_7,
+    ];
+    let mut errors = Vec::new();
+    for increments in [100, 200, 400] {
+        let got = solved(
+            &Cube {
+                mass: 1.0,
+                inertia: "[1, 2, 3]",
+                centroid: "",
+                velocity: "v = [0.5, 0, 0], omega = [1, 0, 1.2]",
+                duration: 10.0,
+                increments,
+                step: "",
+            }
+            .text(),
+        );
+        let last = increments - 1;
+        errors.push(distance(spin(&got), wanted));
+        assert!((got["pilot.displacement_x"][last] - 5.0).abs() < 1e-9);
+        let turned = rotation(vector(&got, "rotation", last));
+        let [a, b, c] = spin(&got);
+        let momentum = times(turned, [a, 2.0 * b, 3.0 * c]);
+        assert!(distance(momentum, [1.0, 0.0, 3.6]) < 0.3 * errors[errors.len() - 1] * 3.8);
+        let energy = got["energy.kinetic"][last];
+        assert!((energy / (0.5 * (1.0 + 3.0 * 1.44) + 0.125) - 1.0).abs() < 1e-3);
+    }
+    // those of the prototype in the reference: 9.4e-3, 2.4e-3, 5.9e-4
+    let known = [9.4e-3, 2.4e-3, 5.9e-4];
+    for (got, known) in errors.iter().zip(known) {
+        assert!((got / known - 1.0).abs() < 0.02, "{errors:?}");
+    }
+}
+
+/// A body that spins about its middle axis turns over when the elliptic functions say so.
+#[test]
+fn a_racket_turns_over_in_time() {
+    let got = solved(
+        &Cube {
+            mass: 1.0,
+            inertia: "[1, 2, 3]",
+            centroid: "",
+            velocity: "omega = [0.001, 1, 0]",
+            duration: 14.365_712_218_726_065,
+            increments: 3000,
+            step: "dynamics = { rho_inf = 1.0 }",
+        }
+        .text(),
+    );
+    let [_, middle, _] = spin(&got);
+    assert!(middle.abs() < 2e-3, "{middle}");
+}
+
+/// A heavy top on its tip, by an ordinary differential equation to twelve digits (`reference/dynamics/rigid_rotation.json`).
+#[test]
+fn a_heavy_top_goes_round_to_second_order() {
+    let wanted = [
+        0.548_884_143_009_283_9,
+        0.406_994_152_356_877_6,
+        -0.730_124_617_799_284_4,
+    ];
+    let error = |increments: usize| {
+        let got = solved(
+            &Cube {
+                mass: 15.0,
+                inertia: "[0.234375, 0.46875, 0.234375]",
+                centroid: "centroid = [0, 1, 0]",
+                velocity: "omega = [0, 150, -4.61538]",
+                duration: 0.25,
+                increments,
+                step: "load = [{ on = \"pilot\", gravity = [0, 0, -9.81] }]\nfix = [{ on = \"pilot\", u = \"all\" }]",
+            }
+            .text(),
+        );
+        let turned = rotation(vector(&got, "rotation", increments - 1));
+        let gained = got["energy.algorithmic"].iter().map(|e| e.abs());
+        assert!(gained.fold(0.0, f64::max) < 1e-3 * 5435.7);
+        distance(times(turned, [0.0, 1.0, 0.0]), wanted)
+    };
+    let [coarse, fine] = [250, 500].map(error);
+    assert!(
+        fine < 2e-3 && (coarse / fine).log2() > 1.9,
+        "{coarse} {fine}"
+    );
+}
+
+/// A plane rigid body of one element on a pivot.
+fn pendulum(angle: f64, period: f64, increments: usize) -> String {
+    let (m, g, l, inertia) = (2.0, 9.81, 0.7, 0.3);
+    let about_pivot: f64 = inertia + m * l * l;
+    let duration = period * (about_pivot / (m * g * l)).sqrt();
+    format!(
+        "[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 1, 1], [4, 0, 1]]\n\
+         elements = [{{ id = 1, type = \"quad4\", group = \"e\", nodes = [1, 2, 3, 4] }}]\n\
+         [model]\nspace = \"plane-strain\"\n[reference.pivot]\nat = [0, 0]\n\
+         [[body]]\ngroup = \"e\"\nrigid = true\nreference = \"pivot\"\n\
+         [[mass]]\non = \"pivot\"\nvalue = {m:?}\ninertia = {inertia:?}\ncentroid = [{:?}, {:?}]\n\
+         [[step]]\nname = \"swing\"\nkind = \"dynamic\"\nduration = {duration:?}\nincrements = {{ fixed = {increments} }}\n\
+         load = [{{ on = \"all\", gravity = [0, {:?}] }}]\nfix = [{{ on = \"pivot\", u = \"all\" }}]\n",
+        l * angle.sin(),
+        -l * angle.cos(),
+        -g
+    )
+}
+
+/// A pendulum is back after `4 K(sin²(θ₀/2))` periods of small swings, on the other side after half of that, and `on = "all"` has its
+/// weight.
+#[test]
+fn a_pendulum_is_back_after_its_period() {
+    for (angle, period) in [
+        (0.1, 6.287_114_549_310_48),
+        (std::f64::consts::FRAC_PI_4, 6.534_345_229_832_591),
+        (3.0 * std::f64::consts::FRAC_PI_4, 9.600_377_836_534_811),
+    ] {
+        let got = solved(&pendulum(angle, period, 400));
+        let turned = &got["pivot.rotation_z"];
+        assert!(turned[399].abs() < 1e-4 * angle, "{angle}: {}", turned[399]);
+        let far = turned.iter().copied().fold(0.0, f64::min);
+        assert!((far / angle + 2.0).abs() < 1e-4, "{angle}: {far}");
+        let height = 0.7 * 2.0 * 9.81 * (1.0 - angle.cos());
+        let lost = got["energy.algorithmic"].iter().map(|e| e.abs());
+        assert!(lost.fold(0.0, f64::max) < 1e-4 * height);
+    }
+}
+
+/// A rigid disc of so many triangles on a plane, in a field of gravity that leans.
+fn disc(n: usize, mu: f64, increments: usize) -> String {
+    let step = std::f64::consts::TAU / n as f64;
+    let area = 0.5 * n as f64 * step.sin();
+    let mut nodes = "[1, 0.0, 1.0], ".to_owned();
+    let (mut elements, mut rim) = (String::new(), String::new());
+    for k in 0..n {
+        let (sine, cosine) = (step * k as f64).sin_cos();
+        write!(nodes, "[{}, {sine:?}, {:?}], ", k + 2, 1.0 - cosine).unwrap();
+        let next = (k + 1) % n + 2;
+        let of = [1, k + 2, next];
+        write!(
+            elements,
+            "{{ id = {}, type = \"tri3\", group = \"disc\", nodes = {of:?} }}, ",
+            k + 1
+        )
+        .unwrap();
+        write!(rim, "[{}, \"S2\"], ", k + 1).unwrap();
+    }
+    let (sine, cosine) = 20f64.to_radians().sin_cos();
+    format!(
+        "[mesh]\nnodes = [{nodes}]\nelements = [{elements}]\n[model]\nspace = \"plane-strain\"\n\
+         [material.m]\nmodel = \"linear-elastic\"\nE = 1.0\nnu = 0.3\ndensity = {:?}\n\
+         [[body]]\ngroup = \"disc\"\nrigid = true\nmaterial = \"m\"\n[sets]\nrim = {{ faces = [{rim}] }}\n\
+         [[surface]]\nname = \"floor\"\nshape = {{ plane = {{ point = [0, 8e-4], normal = [0, 1] }} }}\n\
+         [[contact]]\nname = \"c\"\nsecondary = \"rim\"\nprimary = \"floor\"\nmethod = \"node-to-segment\"\n\
+         enforcement = {{ penalty = 2e5, per = \"area\" }}\nfriction = {mu:?}\n\
+         [output]\nevery = 1000\n[[step]]\nname = \"roll\"\nkind = \"dynamic\"\nduration = 0.25\n\
+         increments = {{ fixed = {increments} }}\nload = [{{ on = \"disc\", gravity = [{:?}, {:?}] }}]\n",
+        area.recip(),
+        9.81 * sine,
+        -9.81 * cosine,
+    )
+}
+
+/// A disc rolls where friction suffices, and slides and turns where it does not (`reference/dynamics/rolling_and_sliding.json`).
+/// Penalties on rigid bodies that are met within a part of an increment lose energy, less in shorter increments.
+#[test]
+fn a_disc_rolls_or_slides_down_a_slope() {
+    let (g, sine, cosine) = (9.81, 20f64.to_radians().sin(), 20f64.to_radians().cos());
+    for (mu, along, about) in [
+        (0.5, 2.0 / 3.0 * g * sine, 2.0 / 3.0 * g * sine),
+        (0.05, g * (sine - 0.05 * cosine), 2.0 * 0.05 * g * cosine),
+    ] {
+        let got = solved(&disc(360, mu, 500));
+        let speed = got["disc.velocity_x"][499] / 0.25;
+        let spin = -got["disc.angular_velocity_z"][499] / 0.25;
+        assert!((speed / along - 1.0).abs() < 4e-3, "{mu}: {speed} {along}");
+        assert!((spin / about - 1.0).abs() < 1e-2, "{mu}: {spin} {about}");
+        let least = got["energy.algorithmic"]
+            .iter()
+            .copied()
+            .fold(0.0, f64::min);
+        assert!(least > -1e-4 * got["energy.kinetic"][499], "{least}");
+    }
+}
+
+/// A rigid block on a floor, by penalties at its nodes.
+fn block(penalty: f64, velocity: &str, duration: f64, increments: usize, extra: &str) -> String {
+    format!(
+        "[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 1, 1], [4, 0, 1]]\n\
+         elements = [{{ id = 1, type = \"quad4\", group = \"block\", nodes = [1, 2, 3, 4] }}]\n\
+         [model]\nspace = \"plane-strain\"\n\
+         [[body]]\ngroup = \"block\"\nrigid = true\n\
+         [[mass]]\non = \"block\"\nvalue = 2.0\ninertia = 0.333\n\
+         [sets]\nsides = {{ faces = [[1, \"-y\"], [1, \"+x\"], [1, \"-x\"], [1, \"+y\"]] }}\n\
+         [[surface]]\nname = \"floor\"\nshape = {{ plane = {{ point = [0, 0], normal = [0, 1] }} }}\n\
+         [[contact]]\nname = \"c\"\nsecondary = \"sides\"\nprimary = \"floor\"\nmethod = \"node-to-segment\"\n\
+         enforcement = {{ penalty = {penalty:?}, per = \"node\" }}\nfriction = 0.3\n\
+         [initial]\nvelocity = [{{ on = \"block\", {velocity} }}]\n\
+         [[step]]\nname = \"move\"\nkind = \"dynamic\"\nduration = {duration:?}\nincrements = {{ fixed = {increments} }}\n{extra}\n"
+    )
+}
+
+#[test]
+fn a_block_slides_to_rest() {
+    let weight = "load = [{ on = \"block\", gravity = [0, -9.81] }]";
+    let got = solved(&block(1e6, "v = [2, 0]", 0.8, 400, weight));
+    let way = got["block.displacement_x"][399];
+    assert!((way / 0.679_578_661_230_037_4 - 1.0).abs() < 1e-5, "{way}");
+    assert!(got["block.velocity_x"][399].abs() < 1e-6);
+    // ½ m v²
+    assert!((got["energy.friction"][399] / 4.0 - 1.0).abs() < 1e-3);
+}
+
+/// A block that falls flat on springs: `π √(m/k)`, `v √(m/k)`, `v √(m k)` for short increments; the rebound is less for long ones, and
+/// never more.
+#[test]
+fn a_block_bounces_as_a_mass_on_a_spring() {
+    let (m, v, k) = (2.0_f64, 3.0, 5000.0_f64);
+    let time = std::f64::consts::PI * (m / k).sqrt();
+    let mut before = 1.0;
+    for (h, least) in [(0.003, 0.99), (0.03, 0.93), (0.1, 0.80), (0.3, 0.54)] {
+        let increments = (1.5 / h) as usize;
+        let duration = h * increments as f64 * time;
+        let got = solved(&block(0.5 * k, "v = [0, -3]", duration, increments, ""));
+        let rebound = got["block.velocity_y"][increments - 1] / v;
+        assert!(rebound > least && rebound < before, "{h}: {rebound}");
+        before = rebound;
+        if h < 0.01 {
+            let force = got["c.force_y"].iter().map(|f| f.abs()).fold(0.0, f64::max);
+            let depth = got["block.displacement_y"]
+                .iter()
+                .copied()
+                .fold(0.0, f64::min);
+            assert!((force / (v * (m * k).sqrt()) - 1.0).abs() < 0.01, "{force}");
+            assert!((depth / (v * (m / k).sqrt()) + 1.0).abs() < 0.01, "{depth}");
+        }
+    }
+}
+
+#[test]
+fn a_tumbling_block_goes_on_with_the_same_bits_and_gains_no_energy() {
+    let weight = "load = [{ on = \"block\", gravity = [0, -9.81] }]";
+    let text = block(1e4, "v = [1, 2], omega = 3", 0.6, 60, weight);
+    let got = solved(&text);
+    let least = got["energy.algorithmic"]
+        .iter()
+        .copied()
+        .fold(0.0, f64::min);
+    assert!(least > -1e-9, "{least}");
+    let text = text + "[checkpoint]\nevery = { increments = 1 }\n";
+    let whole = stopped_after(&text, &[]);
+    for stops in [&[5][..], &[40, 100]] {
+        assert_eq!(whole, stopped_after(&text, stops), "{stops:?}");
+    }
+}
+
+#[test]
+fn what_rigid_bodies_need_for_a_motion_is_said() {
+    let text = block(1e4, "v = [1, 2], omega = 3", 0.6, 60, "");
+    assert_eq!(refusal(&text), "");
+    let mass = "[[mass]]\non = \"block\"\nvalue = 2.0\ninertia = 0.333\n";
+    let without = refusal(&text.replace(mass, ""));
+    assert!(
+        without.contains("without mass has no velocity"),
+        "{without}"
+    );
+    let three = refusal(&text.replace("inertia = 0.333", "inertia = [1, 1, 1]"));
+    assert!(three.contains("`inertia` does not go"), "{three}");
+    let of_set = refusal(&text.replace("on = \"block\"\nvalue", "on = \"sides\"\nvalue"));
+    assert!(of_set.contains("`inertia` of a mass at nodes"), "{of_set}");
+    let light = text.replace(mass, "").replace(
+        "rigid = true\n",
+        "rigid = true\nmaterial = \"m\"\n[material.m]\nmodel = \"linear-elastic\"\nE = 1.0\nnu = 0.3\n",
+    );
+    let refused = refusal(&light);
+    assert!(refused.contains("that has no `density`"), "{refused}");
+    let damped = light.replace(
+        "nu = 0.3\n",
+        "nu = 0.3\ndensity = 1.0\ndamping = { mass = 1.0 }\n",
+    );
+    let refused = refusal(&damped);
+    assert!(refused.contains("damping of a rigid body"), "{refused}");
+    let pull = text.replace(mass, "").replace(
+        "[initial]\nvelocity = [{ on = \"block\", v = [1, 2], omega = 3 }]\n",
+        "",
+    );
+    let pull = refusal(&(pull + "load = [{ on = \"block\", gravity = [0, -9.81] }]\n"));
+    assert!(pull.contains("\"block\" has no mass"), "{pull}");
+}
