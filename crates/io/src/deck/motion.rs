@@ -5,7 +5,7 @@
 //! and may gain energy.
 
 use super::translation::Translation;
-use crate::case::{DynamicMethod, Dynamics, Step, VelocityAt};
+use crate::case::{DynamicMethod, Dynamics, ERROR_TOL, IMPACT_STEP, Step, VelocityAt};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use std::collections::BTreeMap;
@@ -48,6 +48,8 @@ impl Translation<'_> {
         step.dynamics = Some(Dynamics {
             method,
             redistributed: Spanned::new(false, card.place.clone()),
+            error_tol: ERROR_TOL,
+            impact_step: IMPACT_STEP,
         });
     }
 

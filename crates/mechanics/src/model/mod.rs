@@ -28,13 +28,14 @@ mod contact;
 mod context;
 mod error;
 mod held;
+mod impact;
 mod inertia;
 mod label;
 mod loads;
 mod parts;
 mod reduction;
-mod spaces;
 mod rigid_masses;
+mod spaces;
 mod steps;
 mod substance;
 mod summary;
@@ -44,6 +45,7 @@ pub use activity_error::ActivityError;
 pub use constraint_error::ConstraintError;
 pub use error::ModelError;
 pub use held::Unheld;
+pub use impact::ControlPart;
 pub use parts::{
     ActivityPart, AreaPart, BodyKind, BodyPart, CarrierMass, CarrierPart, CarrierVelocity, Change,
     ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart,
@@ -202,9 +204,9 @@ impl Model {
             substances: &substances,
             elimination: Arc::new(elimination),
             carriers: &parts.carriers,
+            heavy: Arc::new([]),
             space,
             spaces: &spaces,
-            heavy: Arc::new([]),
             layout,
             ties: &ties,
             poses,

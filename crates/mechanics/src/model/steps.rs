@@ -211,13 +211,13 @@ impl Context<'_> {
                 increments: part.increments,
                 nonlinear: part.nonlinear,
                 scheme: part.scheme,
+                control: part.control.map(|control| self.control(&control, contacts)),
                 prescriptions: prescriptions.collect(),
             });
         }
         Ok((steps, loads))
     }
 
-    /// The unknowns of carriers along which loads act.
     /// The unknowns of rigid bodies with a mass that inertia acts along: translations, and rotations that have some.
     fn moved_by_mass(&self) -> impl Iterator<Item = Dof> {
         let of_body = move |body: &RigidMass| {
@@ -240,6 +240,7 @@ impl Context<'_> {
         self.heavy.iter().flat_map(of_body)
     }
 
+    /// The unknowns of carriers along which loads act.
     fn loaded(&self, loads: &[LoadPart], step: &str) -> Result<Vec<Dof>, ModelError> {
         let layout = &self.layout;
         let mut dofs = Vec::new();

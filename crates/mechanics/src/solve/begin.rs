@@ -3,7 +3,7 @@
 use super::newton::Failure;
 use super::step::{Prescription, Step};
 use super::stepping::{RunError, Stepper};
-use crate::system::{Phase, StepContext, System};
+use crate::system::{Choices, Phase, StepContext, System};
 
 impl Stepper {
     /// How a run ends whose step cannot begin.
@@ -60,6 +60,9 @@ impl Stepper {
             term.prescribe(prescribed);
         }
         self.newton.analyzed = false;
+        if self.progress.increment == 0 {
+            self.progress.record.closed = system.choices().map(Choices::nactive).sum();
+        }
         if step.scheme.is_some() && self.progress.increment == 0 {
             self.newton.accelerate(system, &mut self.state)?;
         }

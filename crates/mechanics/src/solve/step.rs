@@ -1,5 +1,6 @@
 //! Steps: their increments, and the values that they prescribe.
 
+use super::TimeControl;
 use crate::system::{Dof, Scheme, TimeFunction};
 
 /// How a step is cut into increments.
@@ -67,6 +68,8 @@ pub struct Step {
     pub nonlinear: bool,
     /// How it goes through time, where inertia counts.
     pub scheme: Option<Scheme>,
+    /// What limits its increments there, where they adapt.
+    pub control: Option<TimeControl>,
     /// What is prescribed during it; everything else is free.
     pub prescriptions: Vec<Prescription>,
 }

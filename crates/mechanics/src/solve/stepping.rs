@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
+use super::local_error::{Record, look, next};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
 use super::step::{Increments, Motion, Sizes, Step};
@@ -128,6 +129,8 @@ pub(super) struct Progress {
     pub jumped: bool,
     /// What supports and loads have done.
     pub work: ExternalWork,
+    /// What the control of time knows of increments so far.
+    pub record: Record,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -264,6 +267,10 @@ impl Stepper {
                 step: number + 1,
                 step_start: self.progress.step_start + step.duration,
                 work: std::mem::take(&mut self.progress.work),
+                record: Record {
+                    calm: 0,
+                    ..self.progress.record
+                },
                 ..Progress::default()
             };
             // a static step leads from rest to rest
@@ -360,9 +367,9 @@ impl Stepper {
                 attempt,
                 accepted,
             };
-            let failure = match self.attempt(system, end, &targets, attempt, observer) {
+            let failure = match self.attempt(system, step, end, &targets, attempt, observer) {
                 Ok(accepted) => {
-                    self.adapt(accepted.iterations, attempt, dt, sizes.max);
+                    self.adapt(step, accepted.iterations, attempt, dt, sizes.max);
                     return Ok(Some(made(attempt, accepted)));
                 }
                 Err(failure) => failure,
@@ -373,11 +380,12 @@ impl Stepper {
                 return Ok(None);
             }
             // a failure from an extrapolated start says nothing about one from the last state
-            let extrapolated = self.newton.extrapolated;
+            let inaccurate = matches!(failure, Failure::Inaccurate { .. } | Failure::Impact { .. });
+            let extrapolated = self.newton.extrapolated && !inaccurate;
             let smaller = dt * severity(&failure);
             let smallest = sizes.min.is_none_or(|m| smaller < m);
             failed += usize::from(!extrapolated);
-            let again = self.tries_again(system, extrapolated);
+            let again = !inaccurate && self.tries_again(system, extrapolated);
             let due = |n| failed == n + 1 || (smallest && failed <= n);
             let may_creep = step.scheme.is_none() && self.stabilize_after.is_some_and(due);
             owed |= !extrapolated && may_creep;
@@ -416,6 +424,7 @@ impl Stepper {
                 return Ok(None);
             }
             self.progress.easy = 0;
+            self.progress.record.calm = 0;
             dt = next;
             attempt += 1;
         }
@@ -494,6 +503,7 @@ impl Stepper {
     fn attempt(
         &mut self,
         system: &mut System,
+        step: &Step,
         end: f64,
         targets: &[(Dof, f64)],
         attempt: usize,
@@ -503,7 +513,6 @@ impl Stepper {
         let time = self.progress.step_start + end;
         let dt = end - self.progress.time;
         self.guess.clear();
-        step: &Step,
         self.guess.extend(self.progress.rate.iter().map(|r| r * dt));
         let extrapolated = attempt == 1 && self.extrapolates();
         let goal = Goal {
@@ -525,6 +534,12 @@ impl Stepper {
             });
         }
         let converged = outcome?;
+        if let Some((control, scheme)) = step.control.as_ref().zip(step.scheme.as_ref()) {
+            let states = [&self.state, &self.newton.trial];
+            let record = &self.progress.record;
+            let extent = self.newton.extent();
+            self.progress.record = look(control, scheme, system, states, extent, record)?;
+        }
         self.newton.scale.accept(converged.q);
         let change = self.newton.trial.u.iter().zip(&self.state.u);
         let rate = change.map(|(now, before)| (now - before) / dt);
@@ -627,7 +642,7 @@ impl Stepper {
     }
 
     /// Chooses the size of the next increment after one that converged.
-    fn adapt(&mut self, iterations: usize, attempt: usize, dt: f64, max: f64) {
+    fn adapt(&mut self, step: &Step, iterations: usize, attempt: usize, dt: f64, max: f64) {
         let progress = &mut self.progress;
         progress.easy = if iterations <= EASY && attempt == 1 {
             progress.easy + 1
@@ -638,10 +653,10 @@ impl Stepper {
         let size = progress
             .dt
             .map_or(dt, |planned| if attempt == 1 { planned } else { dt });
-        let grown = if progress.easy >= EASY_ROW {
-            size * GROWTH
-        } else {
-            size
+        let grown = match &step.control {
+            _ if progress.easy < EASY_ROW => size,
+            Some(control) => next(control, &progress.record, size),
+            None => size * GROWTH,
         };
         progress.dt = Some(grown.min(max));
     }
@@ -688,6 +703,11 @@ impl Stepper {
                 f64::from(u8::from(p.jumped)),
             ],
         );
+        let record = &p.record;
+        out.put(
+            "progress.record",
+            &[record.largest, record.calm as f64, record.closed as f64],
+        );
         out.put("progress.origin", &p.origin);
         if !p.rate.is_empty() {
             system.layout.save("progress.rate", &p.rate, out);
@@ -731,6 +751,10 @@ impl Stepper {
         self.newton.equations.recall(experience[0] as u8);
         let mut work = ExternalWork::default();
         work.load(system.layout.ndof(), from)?;
+        let mut record = [0.0; 3];
+        if from.length("progress.record").is_ok() {
+            from.get("progress.record", &mut record)?;
+        }
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;
@@ -751,6 +775,12 @@ impl Stepper {
             curvature: curvature.first().copied(),
             jumped: jumped != 0.0,
             work,
+            record: Record {
+                largest: record[0],
+                calm: record[1] as usize,
+                closed: record[2] as usize,
+                is_easy: false,
+            },
         };
         Ok(())
     }

@@ -111,7 +111,10 @@ class Body(Table):
         "`\"auto\"`, `\"consistent\"`, `\"lumped\"`",
         default="auto",
     )
-    material: Key[str | None, str] = Key("Its material; none for a rigid body", "text")
+    material: Key[str | None, str] = Key(
+        "Its material; a rigid body has the density of it, and no other property",
+        "text",
+    )
     orientation: Mixed[BodyOrientation] = Mixed(
         BodyOrientation,
         "Axes of the material: those of an [orientation], or { x, y }; absent: those of the frame",
@@ -651,14 +654,22 @@ class Initial(Table):
 
 
 class Mass(Table):
-    """Masses at nodes, in dynamic steps.
+    """Masses at nodes, of references and rigid bodies, in dynamic steps; masses of one reference add up.
 
     TOML: `mass`.
     """
 
     _toml = "mass"
-    on: Key[str | None, str] = Key("The set or group", "text")
-    value: Key[float | None, float] = Key("The mass at each of its nodes", "number > 0.0")
+    centroid: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
+        "Centroid of the mass of a reference at the start; absent: at the reference",
+        "list of number",
+    )
+    inertia: Key[float | list[float] | None, float | Sequence[float] | NDArray[Any]] = Key(
+        "Moments of inertia of the mass of a reference about its centroid (mass length²), [xx, yy, zz] or [xx, yy, zz, xy, xz, yz] with the signs of a matrix; a number in the plane",
+        "number > 0.0 or list of number",
+    )
+    on: Key[str | None, str] = Key("The set, group, reference or rigid body", "text")
+    value: Key[float | None, float] = Key("The mass: at each node of a set, or of the reference", "number > 0.0")
 
 
 class MaterialDamping(Table):
@@ -2102,7 +2113,11 @@ class CaseTable(Table):
     expects: Items[Expect] = Items(Expect, "Values that are checked at the end", "list of a table", key="expect")
     format: Key[int, int] = Key("Version of the case format", "whole number ≥ 1", default=1)
     initial: One[Initial] = One(Initial, "Fields at the start", "a table")
-    mass: Items[Mass] = Items(Mass, "Masses at nodes, in dynamic steps", "list of a table")
+    mass: Items[Mass] = Items(
+        Mass,
+        "Masses at nodes, of references and rigid bodies, in dynamic steps; masses of one reference add up",
+        "list of a table",
+    )
     materials: Named[Material] = Named(Material, "Materials", "tables by name", key="material")
     mesh: One[Mesh] = One(Mesh, "Nodes and elements: a file, or written in place", "a table")
     model: One[Model] = One(Model, "Dimension of the model", "a table")

@@ -421,6 +421,13 @@ fn facts(cause: &Failure, model: &Model) -> Vec<String> {
             "the force{} is not a finite number after {iterations} iterations",
             at_dof(*dof, model)
         )],
+        Failure::Inaccurate { error, allowed } => vec![format!(
+            "the local error of displacements is {error:.2e}, and {allowed:.2e} is allowed: `error_tol` of the largest displacement \
+             so far"
+        )],
+        Failure::Impact { longest } => vec![format!(
+            "contact closes or opens, which is allowed in increments up to {longest:.2e}: `impact_step`"
+        )],
         Failure::TooStiff { dof } => vec![format!(
             "the stiffness{} is so large that rounding errors hide the others",
             at_dof(*dof, model)

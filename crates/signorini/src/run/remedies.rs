@@ -90,6 +90,14 @@ impl Trouble<'_> {
             Failure::Term(TermError::Inverted { body, .. } | TermError::Material { body, .. }) => {
                 (self.of_material(body).into_iter().collect(), true)
             }
+            Failure::Inaccurate { .. } => {
+                let more = "allow a larger local error:  dynamics = { error_tol = 1e-2 }";
+                (vec![more.to_owned()], false)
+            }
+            Failure::Impact { .. } => {
+                let any = "let contact close in increments of any length:  dynamics = { impact_step = 0 }";
+                (vec![any.to_owned()], false)
+            }
             Failure::NotFinite { .. } | Failure::Term(TermError::NotFinite { .. }) => {
                 (vec![TOO_LARGE.to_owned()], true)
             }

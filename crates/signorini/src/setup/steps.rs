@@ -17,7 +17,7 @@ use signorini_io::case::{
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
-    ActivityPart, BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target,
+    ActivityPart, BodyPart, Change, ConstraintPart, ControlPart, LoadPart, StepPart, Target,
 };
 use signorini_mechanics::solve::{Increments, Motion};
 use signorini_mechanics::system::{CellChange, Scheme, TimeFunction};
@@ -51,6 +51,7 @@ impl Builder<'_> {
                 increments: increments(&step.increments, step.duration, self.may_cut()),
                 nonlinear,
                 scheme: self.scheme(step, found),
+                control: step.dynamics.as_ref().and_then(|of| control(step, of)),
                 changes: self.changes(step, found),
                 loads: self.loads(number, step, &mut couplings, found),
                 contacts: contacts.of(step, found),
@@ -412,4 +413,13 @@ fn increments(part: &case::Increments, duration: f64, may_cut: bool) -> Incremen
         max,
         count_max: count_max as usize,
     }
+}
+
+/// What limits the increments of a dynamic step; none where they are fixed.
+fn control(step: &Step, dynamics: &case::Dynamics) -> Option<ControlPart> {
+    let is_fixed = matches!(step.increments, case::Increments::Fixed(_));
+    (!is_fixed).then_some(ControlPart {
+        error_tol: dynamics.error_tol,
+        impact_step: dynamics.impact_step,
+    })
 }

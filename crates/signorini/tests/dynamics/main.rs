@@ -13,9 +13,10 @@
 mod bar;
 #[path = "../common/mod.rs"]
 mod common;
+mod control;
 mod impact;
-
 mod rigid;
+
 use bar::{Bar, LENGTH, WAVE};
 use signorini::{Finished, News, Reading, RunOptions, build, open_text, run};
 use signorini_io::fs::{Fs, MemoryFs};

@@ -71,6 +71,8 @@ impl Builder<'_> {
                 None => DynamicMethod::GeneralizedAlpha(rho_inf.map_or(RHO_INF, |rho| rho.value)),
             },
             redistributed: Spanned::new(contact_mass.value == "redistributed", contact_mass.place),
+            error_tol: table.number("error_tol"),
+            impact_step: table.number("impact_step"),
         })
     }
 

@@ -80,7 +80,16 @@ pub struct Dynamics {
     pub method: DynamicMethod,
     /// Whether elements that touch a side of a contact give their mass to nodes off it.
     pub redistributed: Spanned<bool>,
+    /// The local error that increments which adapt may have, over the largest displacement so far; 0: any.
+    pub error_tol: f64,
+    /// The longest of these in which contact closes or opens, over the time that a wave takes through an element; 0: any.
+    pub impact_step: f64,
 }
+
+/// The local error that increments have unless a case says otherwise.
+pub const ERROR_TOL: f64 = 1e-3;
+/// How long they are at most in an impact, likewise.
+pub const IMPACT_STEP: f64 = 1.5;
 
 /// A method to go through time.
 #[derive(Clone, Copy, Debug, PartialEq)]

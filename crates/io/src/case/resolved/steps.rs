@@ -64,7 +64,12 @@ pub(super) fn step(step: &Step) -> Entries {
         };
         let method = ("method", "generalized-alpha".into());
         let mass = ("contact_mass", contact_mass.into());
-        ("dynamics", Value::Table(vec![method, number, mass]))
+        let error = ("error_tol", dynamics.error_tol.into());
+        let impact = ("impact_step", dynamics.impact_step.into());
+        (
+            "dynamics",
+            Value::Table(vec![method, number, mass, error, impact]),
+        )
     }));
     entries.extend(step.prints.as_ref().map(|prints| {
         // an empty list says that earlier ones end

@@ -3,6 +3,7 @@
 use super::contact::CONTACT_CHANGE;
 use super::placeholders::LOADS;
 use super::*;
+use crate::case::parts::{ERROR_TOL, IMPACT_STEP};
 
 pub(super) static AMPLITUDE: Table = Table {
     heading: "[amplitude.NAME]",
@@ -108,6 +109,19 @@ static DYNAMICS: Table = Table {
              flicker nor lose energy",
         )
         .or(Default::Text("as-is")),
+        key(
+            "error_tol",
+            NOT_NEGATIVE,
+            "of increments that adapt: their local error of displacements, over the largest displacement so far; 0: it does not count",
+        )
+        .or(Default::Number(ERROR_TOL)),
+        key(
+            "impact_step",
+            NOT_NEGATIVE,
+            "of increments that adapt: the longest in which contact closes or opens, over the time that a wave takes through an element \
+             of the secondary side; 0: any",
+        )
+        .or(Default::Number(IMPACT_STEP)),
     ],
     rules: &[Rule::AtMostOne(&["rho_inf", "alpha"])],
 };

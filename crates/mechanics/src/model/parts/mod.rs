@@ -4,6 +4,7 @@ mod contact;
 
 pub use contact::*;
 
+use super::ControlPart;
 use crate::connector::SpringLaw;
 use crate::load::{Acting, Course};
 use crate::material::Material;
@@ -37,11 +38,11 @@ pub struct Parts<'a> {
     pub velocity: Vec<Vec3>,
     /// Masses at nodes.
     pub masses: Vec<(NodeId, f64)>,
-    /// The steps.
     /// Masses of carriers, besides those of their rigid bodies.
     pub carrier_masses: Vec<CarrierMass>,
     /// How carriers move at the start.
     pub carrier_velocities: Vec<CarrierVelocity>,
+    /// The steps.
     pub steps: Vec<StepPart>,
     /// Whether viscous forces hold bodies that nothing but contact stops.
     pub stabilize: bool,
@@ -68,9 +69,9 @@ impl<'a> Parts<'a> {
             temperature: Vec::new(),
             velocity: Vec::new(),
             masses: Vec::new(),
-            steps: Vec::new(),
             carrier_masses: Vec::new(),
             carrier_velocities: Vec::new(),
+            steps: Vec::new(),
             stabilize: true,
             hold_free: false,
             gap_tol: 1e-6,
@@ -218,7 +219,6 @@ pub struct CarrierPart {
     pub at: Option<Vec3>,
 }
 
-/// A spring. Its elongation is measured along `direction`, or along the line between its ends, which turns with them.
 /// A mass that moves with a carrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarrierMass {
@@ -245,6 +245,7 @@ pub struct CarrierVelocity {
     pub about: Vec3,
 }
 
+/// A spring. Its elongation is measured along `direction`, or along the line between its ends, which turns with them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringPart {
     /// Its name.
@@ -427,6 +428,8 @@ pub struct StepPart {
     pub nonlinear: bool,
     /// How it goes through time, where inertia counts.
     pub scheme: Option<Scheme>,
+    /// What limits its increments there, where they adapt.
+    pub control: Option<ControlPart>,
     /// Changes of supports and motions; everything else stays.
     pub changes: Vec<Change>,
     /// Loads that begin or change here.
@@ -449,6 +452,7 @@ impl StepPart {
             increments,
             nonlinear: true,
             scheme: None,
+            control: None,
             changes: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),

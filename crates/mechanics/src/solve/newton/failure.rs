@@ -37,6 +37,20 @@ pub enum Failure {
         /// Linear solves done.
         iterations: usize,
     },
+    /// The local error of an increment is too large, of a motion with inertia.
+    #[error("the local error of displacements is {error:.2e}, where {allowed:.2e} is allowed")]
+    Inaccurate {
+        /// The error (length).
+        error: f64,
+        /// What the case allows.
+        allowed: f64,
+    },
+    /// Rows of contact close or open in an increment that is too long for an impact.
+    #[error("contact closes or opens in an increment longer than {longest:.2e}")]
+    Impact {
+        /// The longest increment (time).
+        longest: f64,
+    },
     /// A term could not be evaluated.
     #[error(transparent)]
     Term(#[from] TermError),

@@ -394,6 +394,11 @@ impl Newton {
         Ok(())
     }
 
+    /// The size of the model.
+    pub const fn extent(&self) -> f64 {
+        self.extent
+    }
+
     fn judge(&self, system: &System) -> Judgement {
         let dofs = self.equations.dofs();
         let tolerance = Tolerance {

@@ -268,6 +268,7 @@ impl Bar {
             increments: Increments::Fixed(2),
             nonlinear: true,
             scheme: None,
+            control: None,
             prescriptions,
         }
     }

@@ -364,6 +364,7 @@ fn step(increments: Increments, prescribed: &[(NodeId, Motion)]) -> Step {
         increments,
         nonlinear: true,
         scheme: None,
+        control: None,
         prescriptions: prescribed.iter().map(prescription).collect(),
     }
 }

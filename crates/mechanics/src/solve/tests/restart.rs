@@ -56,6 +56,7 @@ fn sliding_block() -> Model {
             increments,
             nonlinear: true,
             scheme: None,
+            control: None,
             changes,
             loads: Vec::new(),
             contacts: Vec::new(),

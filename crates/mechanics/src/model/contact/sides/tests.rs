@@ -151,6 +151,7 @@ fn step(changes: Vec<Change>) -> StepPart {
         increments: Increments::Fixed(1),
         nonlinear: true,
         scheme: None,
+        control: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -1,0 +1,137 @@
+//! How long increments of a motion with inertia may be: the local error of displacements, and impacts.
+//!
+//! ```text
+//! e = h² |1/6 + ½ (αf − αm) − β| ‖a₁ − a₀‖        root mean square over the nodes                  (E5)
+//! ```
+//!
+//! estimates what an increment of length `h` adds to the error of displacements. It is accepted where `e` is a part of the largest
+//! displacement so far; the next one is twice as long where `e`, of third order, would still be that part with a margin, as sizes that
+//! are powers of two apart share a stiffness. While rows of contact close or open an increment is no longer than the time that a wave
+//! takes through an element or two: the force of an impact acts at once, and the error of displacements sees it late.
+
+use super::newton::Failure;
+use crate::system::{Choices, Scheme, State, System, moved};
+use signorini_geometry::tensor::Vec3;
+
+/// What limits increments that adapt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeControl {
+    /// What the local error may be, over the largest displacement so far; none: it is not looked at.
+    pub tolerance: Option<f64>,
+    /// The longest increment in which rows of contact close or open; none: there is no limit.
+    pub impact: Option<f64>,
+}
+
+/// The local error counts as small up to this part of the size of the model, however small displacements are: where a motion begins
+/// smoothly, increments of any length are a large part of it.
+const FLOOR: f64 = 1e-5;
+/// Where an error `e` is below the tolerance over this, twice the length is safe: (2/0.9)³.
+const DOUBLE: f64 = 11.0;
+/// Accepted increments after a rejection, or after rows closed or opened, before longer ones: rejections would else alternate with them.
+const CALM: usize = 6;
+/// The same for lengths beyond those of an impact while rows are closed.
+const CALM_IN_CONTACT: usize = 24;
+
+/// What is known of increments so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Record {
+    /// The largest displacement.
+    pub largest: f64,
+    /// Increments since one was rejected, or rows closed or opened.
+    pub calm: usize,
+    /// Rows closed at the accepted state.
+    pub closed: usize,
+    /// Whether the last error would allow an increment twice as long.
+    pub is_easy: bool,
+}
+
+/// Looks at an increment that has converged.
+///
+/// # Errors
+/// It is too long.
+pub(super) fn look(
+    control: &TimeControl,
+    scheme: &Scheme,
+    system: &System,
+    [from, to]: [&State; 2],
+    extent: f64,
+    before: &Record,
+) -> Result<Record, Failure> {
+    let h = to.time - from.time;
+    let closed = system.choices().map(Choices::nactive).sum();
+    let mut after = Record {
+        largest: before.largest.max(largest(system, to)),
+        calm: before.calm + 1,
+        closed,
+        is_easy: true,
+    };
+    if let Some(tolerance) = control.tolerance {
+        let error = error(scheme, system, [from, to], h);
+        let allowed = tolerance * after.largest.max(FLOOR * extent);
+        if error > allowed {
+            return Err(Failure::Inaccurate { error, allowed });
+        }
+        after.is_easy = DOUBLE * error <= allowed;
+    }
+    if closed != before.closed {
+        if let Some(longest) = control.impact.filter(|longest| h > *longest) {
+            return Err(Failure::Impact { longest });
+        }
+        after.calm = 0;
+    }
+    Ok(after)
+}
+
+/// The length of the increment after one of this length.
+pub(super) fn next(control: &TimeControl, record: &Record, h: f64) -> f64 {
+    let twice = 2.0 * h;
+    let in_impact = record.closed > 0 && control.impact.is_some_and(|longest| twice > longest);
+    let calm = if in_impact { CALM_IN_CONTACT } else { CALM };
+    if record.is_easy && record.calm >= calm {
+        twice
+    } else {
+        h
+    }
+}
+
+/// The largest displacement of a node or a rigid body with a mass.
+fn largest(system: &System, state: &State) -> f64 {
+    let of_nodes = state.x.iter().zip(system.reference.iter());
+    let of_nodes = of_nodes.map(|(x, start)| (*x - *start).norm());
+    let bodies = system.elimination.bodies();
+    let of_bodies = system.heavy.iter().filter_map(|body| {
+        let carrier = body.carrier as usize;
+        let start = bodies.get(carrier)?.reference;
+        Some((state.poses.get(carrier)?.origin - start).norm())
+    });
+    of_nodes.chain(of_bodies).fold(0.0, f64::max)
+}
+
+/// (E5).
+fn error(scheme: &Scheme, system: &System, [from, to]: [&State; 2], h: f64) -> f64 {
+    let Some(rates) = &from.rates else {
+        return 0.0;
+    };
+    let factor = 1.0 / 6.0 + 0.5 * (scheme.alpha_f - scheme.alpha_m) - scheme.beta;
+    let change =
+        |way: Vec3, v: Vec3, a: Vec3| (scheme.acceleration(way, h, v, a) - a).norm_squared();
+    let mut is_massless = system.massless().iter().copied().peekable();
+    let (mut sum, mut count) = (0.0, 0_usize);
+    let nodes =
+        to.x.iter()
+            .zip(&from.x)
+            .zip(&rates.velocity)
+            .zip(&rates.acceleration);
+    for (node, (((to, from), v), a)) in (0..).zip(nodes) {
+        if is_massless.next_if_eq(&node).is_none() {
+            sum += change(*to - *from, *v, *a);
+            count += 1;
+        }
+    }
+    for (body, rates) in system.heavy.iter().zip(&rates.bodies) {
+        let way = body.way(from, moved(&system.layout, [from, to], body.carrier));
+        sum += change(way.centroid, rates.velocity, rates.acceleration);
+        count += 1;
+    }
+    h * h * factor.abs() * (sum / count.max(1) as f64).sqrt()
+}
