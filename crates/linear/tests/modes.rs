@@ -1,4 +1,5 @@
 //! Chains of springs and masses, whose eigenvalues are known in closed form.
+#![allow(clippy::unwrap_used)]
 
 use signorini_linear::sparsity::{BlockPattern, NONE, Pattern};
 use signorini_linear::{Mode, Modes, Problem, Symmetry, Values, Wanted, apply, lowest_modes};

@@ -63,6 +63,13 @@ enum Look {
     Found(Vec<usize>, Option<f64>),
 }
 
+/// What [`Look::Found`] was found in.
+struct Filled {
+    pairs: Vec<Ritz>,
+    found: Vec<usize>,
+    gap: Option<f64>,
+}
+
 impl<'p, 'a> Search<'p, 'a> {
     /// Begins with vectors of no special direction.
     ///
@@ -269,18 +276,18 @@ impl<'p, 'a> Search<'p, 'a> {
     }
 
     /// Goes on until the pairs that matter are found, or something says that they will not be.
-    fn fill(&mut self) -> Result<Option<(Vec<Ritz>, Vec<usize>, Option<f64>)>, LinearError> {
+    fn fill(&mut self) -> Result<Option<Filled>, LinearError> {
         for _ in 0..FILLINGS {
             while self.basis.len() + BLOCK <= self.size() && !self.is_at_end() {
                 self.extend()?;
                 let pairs = self.pairs()?;
                 if let Look::Found(found, gap) = self.look(&pairs) {
-                    return Ok(Some((pairs, found, gap)));
+                    return Ok(Some(Filled { pairs, found, gap }));
                 }
             }
             let pairs = self.pairs()?;
             if let Look::Found(found, gap) = self.look(&pairs) {
-                return Ok(Some((pairs, found, gap)));
+                return Ok(Some(Filled { pairs, found, gap }));
             }
             if self.is_at_end() {
                 return Ok(None);
@@ -352,7 +359,7 @@ impl<'p, 'a> Search<'p, 'a> {
     pub fn run(mut self) -> Result<Modes, LinearError> {
         let (shift, below) = (self.pencil.shift, self.pencil.below);
         for renewal in 0..RENEWALS {
-            let Some((pairs, found, gap)) = self.fill()? else {
+            let Some(Filled { pairs, found, gap }) = self.fill()? else {
                 break;
             };
             let modes = self.modes(&pairs, &found)?;
