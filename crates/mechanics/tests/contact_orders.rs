@@ -278,6 +278,7 @@ impl Solution {
                 increments: Increments::Fixed(1),
                 nonlinear: false,
                 scheme: None,
+                vibration: None,
                 changes,
                 loads: vec![LoadPart {
                     name: "pressure".into(),

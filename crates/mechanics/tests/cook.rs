@@ -127,6 +127,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             },
             nonlinear,
             scheme: None,
+            vibration: None,
             changes,
             loads: vec![LoadPart {
                 name: "shear".into(),

@@ -175,6 +175,7 @@ fn model_of(s: &Situation) -> Model {
             increments: Increments::Fixed(2),
             nonlinear: s.nonlinear,
             scheme: None,
+            vibration: None,
             changes,
             loads: vec![LoadPart {
                 name: "weight".into(),

@@ -182,6 +182,7 @@ impl Block {
                 increments: Increments::Fixed(1),
                 nonlinear: false,
                 scheme: None,
+                vibration: None,
                 changes,
                 loads,
                 contacts: Vec::new(),

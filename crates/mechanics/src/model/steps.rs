@@ -199,10 +199,14 @@ impl Context<'_> {
             });
             steps.push(Step {
                 name: part.name,
-                duration: part.duration,
+                duration: match part.vibration {
+                    Some(_) => 0.0,
+                    None => part.duration,
+                },
                 increments: part.increments,
                 nonlinear: part.nonlinear,
                 scheme: part.scheme,
+                vibration: part.vibration,
                 prescriptions: prescriptions.collect(),
             });
         }

@@ -46,11 +46,13 @@ mod step;
 mod stepping;
 #[cfg(test)]
 mod tests;
+mod vibration;
 mod work;
 
 pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};
 pub use newton::{Failure, LineSearch, NewtonSettings};
-pub use step::{Increments, Motion, Prescription, Step};
+pub use step::{Increments, Motion, Prescription, Step, Vibration};
 pub use stepping::{Outcome, RunError, Stepper, StepperSettings};
+pub use vibration::{NaturalMode, Vibrations};

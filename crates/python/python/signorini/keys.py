@@ -1547,6 +1547,28 @@ class Free(Table):
     )
 
 
+class Frequency(Table):
+    """Which natural frequencies a frequency step finds.
+
+    TOML: `step.frequency`.
+    """
+
+    _toml = "step.frequency"
+    lower: Key[float | None, float] = Key(
+        "The frequency above which they begin (cycles per time); absent: with the lowest",
+        "number ≥ 0.0",
+    )
+    modes: Key[int, int] = Key(
+        "How many, the lowest first; rigid motions of free bodies count",
+        "whole number ≥ 1, ≤ 10000",
+        default=10,
+    )
+    upper: Key[float | None, float] = Key(
+        "The frequency at which they end, where there are not as many; absent: nowhere",
+        "number > 0.0",
+    )
+
+
 class Increments(Table):
     """How the step is cut into increments: a smaller one after a failure; after two easy ones a larger one, or all that is left of the step where that is not much more.
 
@@ -1792,6 +1814,7 @@ class Step(Table):
     dynamics: One[Dynamics] = One(Dynamics, "How a dynamic step goes through time", "a table")
     fixes: Items[Fix] = Items(Fix, "Supports, at the present position", "list of a table", key="fix")
     frees: Items[Free] = Items(Free, "Supports and motions of earlier steps that end", "list of a table", key="free")
+    frequency: One[Frequency] = One(Frequency, "Which natural frequencies a frequency step finds", "a table")
     geometry: Key[Literal["auto", "linear", "nonlinear"], Literal["auto", "linear", "nonlinear"]] = Key(
         "Small displacements or any; auto: as the step before, at first nonlinear",
         "`\"auto\"`, `\"linear\"`, `\"nonlinear\"`",
@@ -1803,9 +1826,9 @@ class Step(Table):
         "whole number ≥ 1, ≤ 1000000000 or a table",
         default=10,
     )
-    kind: Key[Literal["static", "dynamic"], Literal["static", "dynamic"]] = Key(
-        "The kind of analysis: equilibrium, or a motion in time with inertia",
-        "`\"static\"`, `\"dynamic\"`",
+    kind: Key[Literal["static", "dynamic", "frequency"], Literal["static", "dynamic", "frequency"]] = Key(
+        "The kind of analysis: equilibrium, a motion in time with inertia, or natural frequencies about the state that earlier steps lead to, which stays as it is",
+        "`\"static\"`, `\"dynamic\"`, `\"frequency\"`",
         default="static",
     )
     loads: Items[Load] = Items(

@@ -231,6 +231,7 @@ fn press_and_slide(head: &[NodeId], flat: bool) -> Vec<StepPart> {
         },
         nonlinear: true,
         scheme: None,
+        vibration: None,
         changes: vec![Change::Prescribe(Target::Nodes(head.to_vec()), motions)],
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -39,6 +39,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                 increments: Increments::Fixed(4),
                 nonlinear,
                 scheme: None,
+                vibration: None,
                 changes: if number == 0 {
                     vec![support]
                 } else {

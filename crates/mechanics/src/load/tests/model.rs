@@ -40,6 +40,7 @@ fn step_with(changes: Vec<Change>, loads: Vec<Acting>, nonlinear: bool) -> StepP
         increments: Increments::Fixed(4),
         nonlinear,
         scheme: None,
+        vibration: None,
         changes,
         loads: loads.into_iter().enumerate().map(part).collect(),
         contacts: Vec::new(),

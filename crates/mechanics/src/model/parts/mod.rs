@@ -8,7 +8,7 @@ use crate::connector::SpringLaw;
 use crate::load::{Acting, Course};
 use crate::material::Material;
 use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes};
-use crate::solve::{Increments, Motion};
+use crate::solve::{Increments, Motion, Vibration};
 use crate::system::{CellChange, Idealisation, Scheme};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
@@ -390,6 +390,8 @@ pub struct StepPart {
     pub nonlinear: bool,
     /// How it goes through time, where inertia counts.
     pub scheme: Option<Scheme>,
+    /// Which natural modes are found in it; it then takes no time.
+    pub vibration: Option<Vibration>,
     /// Changes of supports and motions; everything else stays.
     pub changes: Vec<Change>,
     /// Loads that begin or change here.
@@ -412,6 +414,7 @@ impl StepPart {
             increments,
             nonlinear: true,
             scheme: None,
+            vibration: None,
             changes: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),

@@ -267,6 +267,7 @@ impl Bar {
             increments: Increments::Fixed(2),
             nonlinear: true,
             scheme: None,
+            vibration: None,
             prescriptions,
         }
     }

@@ -363,6 +363,7 @@ fn step(increments: Increments, prescribed: &[(NodeId, Motion)]) -> Step {
         increments,
         nonlinear: true,
         scheme: None,
+        vibration: None,
         prescriptions: prescribed.iter().map(prescription).collect(),
     }
 }
@@ -419,7 +420,8 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
             | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
-            | Event::Solver { .. } => {}
+            | Event::Solver { .. }
+            | Event::Vibrations { .. } => {}
         }
         Flow::Continue
     });

@@ -56,6 +56,7 @@ fn sliding_block() -> Model {
             increments,
             nonlinear: true,
             scheme: None,
+            vibration: None,
             changes,
             loads: Vec::new(),
             contacts: Vec::new(),
@@ -117,7 +118,8 @@ fn advance(model: &mut Model, stepper: &mut Stepper) -> Option<Leg> {
             | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
-            | Event::Solver { .. } => {}
+            | Event::Solver { .. }
+            | Event::Vibrations { .. } => {}
         }
         Flow::Continue
     });

@@ -95,6 +95,7 @@ fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
         increments: Increments::Fixed(increments),
         nonlinear,
         scheme: None,
+        vibration: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -148,6 +148,7 @@ fn step(changes: Vec<Change>) -> StepPart {
         increments: Increments::Fixed(1),
         nonlinear: true,
         scheme: None,
+        vibration: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),
