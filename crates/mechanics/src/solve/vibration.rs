@@ -15,7 +15,6 @@ use super::newton::{Failure, Newton};
 use super::step::{Step, Vibration};
 use super::stepping::{Outcome, RunError, Stepper};
 use crate::system::{Assembly, Dof, DofName, FieldId, Increment, Phase, State, System};
-use signorini_geometry::tensor::Vec3;
 use signorini_linear::{LinearError, Mode, Modes, Wanted, lowest_modes};
 use std::f64::consts::TAU;
 
@@ -31,7 +30,7 @@ pub struct NaturalMode {
     /// Γ of (E5), for the three axes.
     pub participation: [f64; 3],
     /// The motion of every node, with φ·M φ = 1.
-    pub shape: Vec<Vec3>,
+    pub shape: Vec<[f64; 3]>,
 }
 
 impl NaturalMode {
@@ -223,12 +222,13 @@ impl Newton {
             }
         }
         let product = |of_axis: &Vec<f64>| rates.iter().zip(of_axis).map(|(x, m)| x * m).sum();
+        let shape = system.rates(state, &rates);
         NaturalMode {
             eigenvalue: mode.eigenvalue,
             residual: mode.residual,
             has_converged: mode.has_converged(),
             participation: mass.each_ref().map(product),
-            shape: system.rates(state, &rates),
+            shape: shape.iter().map(|u| u.to_array()).collect(),
         }
     }
 }

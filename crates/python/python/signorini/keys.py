@@ -1816,7 +1816,7 @@ class Step(Table):
     frees: Items[Free] = Items(Free, "Supports and motions of earlier steps that end", "list of a table", key="free")
     frequency: One[Frequency] = One(Frequency, "Which natural frequencies a frequency step finds", "a table")
     geometry: Key[Literal["auto", "linear", "nonlinear"], Literal["auto", "linear", "nonlinear"]] = Key(
-        "Small displacements or any; auto: as the step before, at first nonlinear",
+        "Small displacements or any; auto: as the step before, at first nonlinear, and in frequency steps",
         "`\"auto\"`, `\"linear\"`, `\"nonlinear\"`",
         default="auto",
     )

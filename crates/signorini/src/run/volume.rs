@@ -168,9 +168,8 @@ impl Volume {
         step: usize,
         number: usize,
     ) -> Result<Vec<u8>, VtuError> {
-        let shape = vectors(&mode.shape);
         let at_nodes = [
-            Field::new("displacement", Values::Vector(&shape)),
+            Field::new("displacement", Values::Vector(&mode.shape)),
             Field::new("node_id", Values::Int64(&self.node_ids)),
         ];
         let in_cells = [Field::new("element_id", Values::Int64(&self.element_ids))];
