@@ -22,6 +22,7 @@ mod error;
 mod forecast;
 mod lists;
 mod matrix;
+mod modes;
 mod multigrid;
 #[cfg(feature = "mumps")]
 mod mumps;
@@ -40,6 +41,7 @@ pub use condensation::Condensed;
 pub use direct::{Direct, Factor};
 pub use error::LinearError;
 pub use forecast::{Forecast, Path};
+pub use modes::{Mode, Modes, Wanted, lowest_modes};
 pub use multigrid::Multigrid;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;

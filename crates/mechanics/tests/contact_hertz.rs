@@ -133,6 +133,8 @@ fn pressed(facets: f64, element: &str, sliding: SlidingRange) -> ContactFrame {
         increments: Increments::Fixed(1),
         nonlinear: false,
         scheme: None,
+        control: None,
+        vibration: None,
         changes,
         loads: vec![load],
         contacts: Vec::new(),

@@ -278,6 +278,8 @@ impl Solution {
                 increments: Increments::Fixed(1),
                 nonlinear: false,
                 scheme: None,
+                control: None,
+                vibration: None,
                 changes,
                 loads: vec![LoadPart {
                     name: "pressure".into(),

@@ -128,6 +128,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             nonlinear,
             scheme: None,
             control: None,
+            vibration: None,
             changes,
             loads: vec![LoadPart {
                 name: "shear".into(),

@@ -172,6 +172,8 @@ fn steps(s: &Situation, mesh: &Mesh, low: &Part, high: &Part) -> Vec<StepPart> {
         increments: increments(n),
         nonlinear: true,
         scheme: None,
+        control: None,
+        vibration: None,
         changes,
         loads,
         contacts: Vec::new(),

@@ -175,6 +175,8 @@ fn model_of(s: &Situation) -> Model {
             increments: Increments::Fixed(2),
             nonlinear: s.nonlinear,
             scheme: None,
+            control: None,
+            vibration: None,
             changes,
             loads: vec![LoadPart {
                 name: "weight".into(),

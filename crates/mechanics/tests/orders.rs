@@ -183,6 +183,8 @@ fn solution(
             increments: Increments::Fixed(1),
             nonlinear: false,
             scheme: None,
+            control: None,
+            vibration: None,
             changes: boundary.iter().map(prescribe).collect(),
             loads: vec![LoadPart {
                 name: "body force".into(),

@@ -182,6 +182,8 @@ impl Block {
                 increments: Increments::Fixed(1),
                 nonlinear: false,
                 scheme: None,
+                control: None,
+                vibration: None,
                 changes,
                 loads,
                 contacts: Vec::new(),

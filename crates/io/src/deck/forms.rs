@@ -118,6 +118,7 @@ fn form(card: &Statement) -> Option<Form> {
             (0, 4),
             "initial increment, period, smallest and largest increment",
         ),
+        "FREQUENCY" => each(ONE, (1, 3), "number of frequencies, lowest, highest"),
         "INITIALCONDITIONS" => match card.peek("TYPE").map(compared).as_deref() {
             Some("TEMPERATURE") => each(SOME, (2, 2), "node or set, temperature"),
             Some("VELOCITY") => each(SOME, (3, 3), "node or set, component, velocity"),

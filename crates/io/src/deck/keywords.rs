@@ -154,7 +154,10 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("FILE OUTPUT", "all fields are written anyway"),
     ignored("FILTER", "all fields are written anyway"),
     ignored("FLUID CONSTANTS", "only of fluids"),
-    refused("FREQUENCY", "only static steps are built"),
+    read(
+        "FREQUENCY",
+        "number, lowest, highest; with STEP, PERTURBATION about a preloaded state",
+    ),
     read(
         "FRICTION",
         "a coefficient, and a stick slope with --compat ccx",

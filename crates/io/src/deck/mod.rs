@@ -30,6 +30,7 @@ mod compat;
 mod constraint;
 mod contact;
 mod forms;
+mod frequency;
 mod general;
 mod keywords;
 mod load;

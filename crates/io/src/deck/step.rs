@@ -88,8 +88,9 @@ impl Translation<'_> {
         if let Some(nonlinear) = head.and_then(|card| card.get("NLGEOM")) {
             standing.nonlinear = compared(nonlinear) != "NO";
         }
-        if head.is_some_and(|card| card.has("PERTURBATION")) {
-            let text = "*STEP, PERTURBATION is not supported";
+        let is_of_modes = |card: &&Statement| card.keyword == "FREQUENCY";
+        if head.is_some_and(|card| card.has("PERTURBATION")) && !cards.iter().any(is_of_modes) {
+            let text = "*STEP, PERTURBATION is supported with *FREQUENCY alone";
             self.error(&codes::NOT_BUILT, text, &place, "");
         }
         let name = Spanned::new(name, place.clone());
@@ -101,7 +102,7 @@ impl Translation<'_> {
             },
             ..Step::of_nothing(name, place)
         };
-        self.time(cards, &mut step);
+        self.time(number, cards, &mut step);
         let mut lines = Vec::new();
         if number == 0 {
             self.free_rigid_bodies(&mut step);
@@ -155,16 +156,17 @@ impl Translation<'_> {
         self.write_loads(&mut standing.loads, sudden, &mut step);
         let lines = self.without_replaced(lines);
         self.prescribe(lines, number, sudden, standing, &mut step);
+        self.still(&mut step);
         step
     }
 
-    fn time(&mut self, cards: &[&Statement], step: &mut Step) {
-        let procedures = ["STATIC", "DYNAMIC"];
+    fn time(&mut self, number: usize, cards: &[&Statement], step: &mut Step) {
+        let procedures = ["STATIC", "DYNAMIC", "FREQUENCY"];
         let Some(card) = cards
             .iter()
             .find(|c| procedures.contains(&c.keyword.as_str()))
         else {
-            let known = ["FREQUENCY", "HEATTRANSFER", "VISCO"];
+            let known = ["COMPLEXFREQUENCY", "HEATTRANSFER", "VISCO"];
             // those are reported by their keyword
             if !cards
                 .iter()
@@ -175,6 +177,10 @@ impl Translation<'_> {
             }
             return;
         };
+        if card.keyword == "FREQUENCY" {
+            self.natural_frequencies(number, cards, card, step);
+            return;
+        }
         let Some([initial, period, least, most]) = self.times(card) else {
             return;
         };

@@ -454,6 +454,24 @@ codes! {
     ["let high frequencies go:  dynamics = { rho_inf = 0.8 }", "nodes without mass:  contact_mass = \"redistributed\"",
      "shorter increments", "make it an error:  --strict"]
 
+    UNSTABLE_STATE "S0428" Input "natural modes about a state that is not stable"
+    "Natural modes are small motions about a state of equilibrium. Some of these do not swing: they grow, as the state gives way \
+     to a force in their direction. Their frequencies, the roots of something below zero, are written below zero."
+    ["a body that is compressed beyond its buckling load", "a body that only contact holds, which is not closed"]
+    ["less load in the steps before it", "supports against the motion that grows: see its shape in modes.pvd"]
+
+    NOT_COUNTED "S0429" Input "natural frequencies that were not counted"
+    "A factor of the stiffness, less the mass times a squared frequency, says how many natural frequencies are below that one. \
+     Where it does not agree with those that were found, or has no signs, some of them may be missing from the list. Those in it \
+     are as good as their residuals say."
+    ["redundant multipliers, as of contacts and supports at the same nodes", "frequencies that nearly coincide at the end of the list"]
+    ["ask for a few more or fewer `modes`", "another method of enforcing the contact: a penalty"]
+
+    UNSYMMETRIC "S0430" Input "a stiffness that is not symmetric"
+    "Natural modes are those of the symmetric part of the stiffness. What is left out may couple them, and make some grow."
+    ["pressures that follow surfaces whose edges are free", "remedies against locking at finite strain", "friction"]
+    ["nothing, where the part is small", "silence with  allow = [\"S0430\"]"]
+
     FAR_FROM_START "S0431" Input "a contact that slid far in the geometry of the start"
     "A contact whose steps all have linear geometry compares the sides where they were at the start. What touches has moved \
      along the other side by more than a facet since, so that it presses on facets that are no longer opposite."
@@ -476,6 +494,12 @@ codes! {
     ["a sharp edge that slides off the other side, as in a snap-fit", "an edge that is pressed into the other side"]
     ["nothing, where the second solution is of use", "to start with it:  method = \"gauss-point\"  of the contact",
      "to do without it:  on_trouble = [\"cut\", \"stabilize\"]"]
+
+    MODES_NOT_FOUND "S0503" Convergence "natural modes that did not converge"
+    "The natural modes that a step asks for were not all found: the residuals of some stayed too large. frequencies.csv has them \
+     with their residuals, and says in the column `converged` which are solutions."
+    ["stiffnesses that differ by many powers of ten", "far more modes than the mesh resolves"]
+    ["fewer `modes`", "a range of frequencies:  frequency = { lower = …, upper = … }"]
 
     NOT_WRITTEN "S0601" Output "results could not be written"
     "Writing a file failed. Frames and checkpoints that were complete before are untouched."

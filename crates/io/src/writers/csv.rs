@@ -110,6 +110,27 @@ pub const ENERGY_COLUMNS: [&str; 7] = [
     "energy.algorithmic",
 ];
 
+/// The columns of `frequencies.csv`, one row per natural mode.
+///
+/// `time` is that of the state about which they are; `frequency` in cycles per time and `omega` in radian per time, both below zero
+/// where that state is not stable; `eigenvalue` is ω².
+pub const FREQUENCY_COLUMNS: [&str; 14] = [
+    "step",
+    "time",
+    "mode",
+    "frequency",
+    "omega",
+    "eigenvalue",
+    "residual",
+    "converged",
+    "participation_x",
+    "participation_y",
+    "participation_z",
+    "effective_mass_x",
+    "effective_mass_y",
+    "effective_mass_z",
+];
+
 /// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references, [`ENERGY_COLUMNS`] and chosen `name.quantity`
 /// columns, in the order given.
 pub fn history_columns(
@@ -235,6 +256,12 @@ impl Table {
     pub fn nrow(&self) -> u64 {
         self.rows.nrow()
     }
+}
+
+/// A whole table: its columns, and its rows.
+pub fn text<'a>(columns: &[&str], rows: impl Iterator<Item = Vec<Cell<'a>>>) -> String {
+    let head = header(columns);
+    rows.fold(head, |text, row| text + &line(&row))
 }
 
 fn header<S: AsRef<str>>(columns: &[S]) -> String {

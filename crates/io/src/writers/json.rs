@@ -149,6 +149,19 @@ pub enum Event {
         /// What, in words.
         note: String,
     },
+    /// Natural frequencies were found.
+    Frequencies {
+        /// The step.
+        step: String,
+        /// Total time of the state about which they are.
+        time: f64,
+        /// Whether none between the first and the last is missing.
+        counted: bool,
+        /// They, lowest first.
+        modes: Vec<ModeSummary>,
+        /// Files of their shapes, relative to the output folder.
+        files: Vec<String>,
+    },
     /// A frame is complete and listed.
     Frame {
         /// Its number.
@@ -299,6 +312,9 @@ pub struct Summary {
     pub exit_code: u8,
     /// The steps that were begun, in order.
     pub steps: Vec<StepSummary>,
+    /// The natural frequencies of the steps that found some.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frequencies: Vec<FrequencySummary>,
     /// What every contact carries at the end.
     pub contacts: BTreeMap<String, ContactSummary>,
     /// The expectations of the case, in order.
@@ -344,6 +360,50 @@ pub struct StepSummary {
     /// How often iterations of the linear solver gave way to a direct solution.
     #[serde(default)]
     pub fallbacks: u64,
+}
+
+/// The natural frequencies of one step of a [`Summary`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FrequencySummary {
+    /// Name of the step.
+    pub step: String,
+    /// Total time of the state about which they are.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub time: f64,
+    /// Whether none between the first and the last is missing.
+    pub counted: bool,
+    /// The mass that moves along each axis, that at supports included.
+    #[serde(deserialize_with = "nan::of_vector")]
+    pub mass: [f64; 3],
+    /// They, lowest first.
+    pub modes: Vec<ModeSummary>,
+}
+
+/// A natural mode in a [`FrequencySummary`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ModeSummary {
+    /// Its number among those of its step, from 1.
+    pub mode: u64,
+    /// Cycles per time; below zero where the state is not stable.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub frequency: f64,
+    /// ω, radian per time, with the same sign.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub omega: f64,
+    /// ω².
+    #[serde(deserialize_with = "nan::of_number")]
+    pub eigenvalue: f64,
+    /// ‖K φ − ω² M φ‖ over (ω² + |σ|) ‖M φ‖, with the shift σ of the method.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub residual: f64,
+    /// Whether that is as small as it is to be.
+    pub converged: bool,
+    /// Γ = φ·M e for a motion e by 1 along each axis, with φ·M φ = 1.
+    #[serde(deserialize_with = "nan::of_vector")]
+    pub participation: [f64; 3],
+    /// Γ².
+    #[serde(deserialize_with = "nan::of_vector")]
+    pub effective_mass: [f64; 3],
 }
 
 /// What the audit found in a [`Summary`].

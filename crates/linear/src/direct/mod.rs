@@ -198,6 +198,12 @@ impl Direct {
         Ok(())
     }
 
+    /// The negative pivots of the current factor; none where pivots have no sign.
+    pub(crate) fn negative_pivots(&self) -> Option<usize> {
+        let factors = self.analysis.as_ref().map(|a| &a.factors)?;
+        factors.active_cholesky().map(|c| c.negative_pivots)
+    }
+
     /// How many entries of the factor by fronts are beyond the range of normal numbers.
     #[cfg(test)]
     pub(crate) fn nsubnormal(&self) -> usize {

@@ -21,6 +21,9 @@ pub(super) struct Laws<'a> {
     pub vectors: bool,
     /// c_t of the row at hand: the shear traction per slip of an unknown multiplier.
     pub shear: f64,
+    /// Whether tangents are those of small vibrations: what slips moves freely along the other side, and what sticks does not
+    /// feel a pressure that changes.
+    pub vibrates: bool,
     /// What the laws answer for the row at hand, where they were asked for many rows at once.
     pub answer: Option<&'a Answer>,
 }
@@ -512,9 +515,11 @@ impl<'a> Laws<'a> {
             let state;
             (tangential, state) = self.returned(trial, &limit, past.state);
             let size = trial.norm();
-            for j in 0..width {
+            let slides = self.vibrates && state == Contact::Slip;
+            for j in 0..if slides { 0 } else { width } {
                 let dslip = sliding.dslip.get(j).copied().unwrap_or_default();
-                let dlimit = limit.dpressure * work.pressure[j];
+                let dpressure = if self.vibrates { 0.0 } else { limit.dpressure };
+                let dlimit = dpressure * work.pressure[j];
                 work.tangential[j] = match (self.stick_of(), state) {
                     (Stick::Stiffness(stiffness), Contact::Slip) => {
                         let dz = sliding.movable(work.trial[j] + dslip * stiffness);
@@ -533,6 +538,9 @@ impl<'a> Laws<'a> {
             }
         }
 
+        if self.vibrates && work.tangential.iter().all(|t| *t == Vec3::ZERO) {
+            work.actual_tangential.fill(Vec3::ZERO);
+        }
         let (acting, acting_tangential) = if direct {
             (-along, lambda.vector - nu * along)
         } else {

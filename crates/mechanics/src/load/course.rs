@@ -264,6 +264,7 @@ mod tests {
             duration: 2.0,
             nonlinear: true,
             scheme: None,
+            vibrates: false,
         }
     }
 

@@ -19,7 +19,8 @@ impl Context<'_> {
         rates: Option<&Rates>,
     ) -> Result<Vec<Box<dyn Term>>, ModelError> {
         let mut schemes = steps.iter().filter_map(|step| step.scheme.as_ref());
-        if schemes.clone().next().is_none() {
+        let vibrates = steps.iter().any(|step| step.vibration.is_some());
+        if schemes.clone().next().is_none() && !vibrates {
             return Ok(Vec::new());
         }
         let usual = self.masses(at_nodes, &BTreeSet::new())?;

@@ -33,13 +33,7 @@ pub(super) fn terms(
 fn contexts(steps: &[Step]) -> Vec<StepContext> {
     let mut start = 0.0;
     let context = |(number, step): (usize, &Step)| {
-        let here = StepContext {
-            number,
-            start,
-            duration: step.duration,
-            nonlinear: step.nonlinear,
-            scheme: step.scheme,
-        };
+        let here = step.context(number, start);
         start += step.duration;
         here
     };

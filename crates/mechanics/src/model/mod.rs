@@ -275,8 +275,11 @@ impl Followers<'_> {
     ) -> Result<Vec<Unheld>, ModelError> {
         let mut all: Vec<Unheld> = Vec::new();
         let changed = (1..steps.len()).filter(|&step| context.activity.changes_at(step));
-        let is_static = |number: &usize| steps.get(*number).is_none_or(|s| s.scheme.is_none());
-        for number in std::iter::once(0).chain(changed).filter(is_static) {
+        let is_static = |number: &usize| steps.get(*number).is_none_or(Step::is_static);
+        // vibrations need no supports
+        let first = steps.iter().position(|step| step.vibration.is_none());
+        let first = first.unwrap_or_default();
+        for number in std::iter::once(first).chain(changed).filter(is_static) {
             let held = self.held_in(context, contacts, steps, number);
             match held.judge() {
                 Err(ModelError::FreeBodies(_)) if hold_free => {}

@@ -194,24 +194,32 @@ impl Context<'_> {
                     prescribed.remove(&dof);
                 }
             }
+            // mass moves unless something holds it
+            let moves = part.scheme.is_some() || part.vibration.is_some();
+            let by_mass = self
+                .moved_by_mass()
+                .filter(|dof| moves && !named.contains(dof));
+            let by_mass: BTreeSet<Dof> = by_mass.collect();
             if part.scheme.is_some() {
-                // mass moves unless something holds it
-                for dof in self.moved_by_mass().filter(|dof| !named.contains(dof)) {
-                    prescribed.remove(&dof);
-                }
+                prescribed.retain(|dof, _| !by_mass.contains(dof));
             }
             loads.push(part.loads);
-            let prescriptions = prescribed.iter().map(|(&dof, motion)| Prescription {
+            let here = prescribed.iter().filter(|(dof, _)| !by_mass.contains(dof));
+            let prescriptions = here.map(|(&dof, motion)| Prescription {
                 dof,
                 motion: motion.clone(),
             });
             steps.push(Step {
                 name: part.name,
-                duration: part.duration,
+                duration: match part.vibration {
+                    Some(_) => 0.0,
+                    None => part.duration,
+                },
                 increments: part.increments,
                 nonlinear: part.nonlinear,
                 scheme: part.scheme,
                 control: part.control.map(|control| self.control(&control, contacts)),
+                vibration: part.vibration,
                 prescriptions: prescriptions.collect(),
             });
         }

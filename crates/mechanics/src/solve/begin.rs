@@ -3,7 +3,7 @@
 use super::newton::Failure;
 use super::step::{Prescription, Step};
 use super::stepping::{RunError, Stepper};
-use crate::system::{Choices, Phase, StepContext, System};
+use crate::system::{Choices, Phase, System};
 
 impl Stepper {
     /// How a run ends whose step cannot begin.
@@ -32,13 +32,7 @@ impl Stepper {
         if progress.increment == 0 {
             progress.origin = step.prescriptions.iter().map(value).collect();
         }
-        let context = StepContext {
-            number: progress.step,
-            start: progress.step_start,
-            duration: step.duration,
-            nonlinear: step.nonlinear,
-            scheme: step.scheme,
-        };
+        let context = step.context(progress.step, progress.step_start);
         self.state.is_small = !step.nonlinear;
         let phase = Phase::of_step(context);
         for term in &mut system.terms {

@@ -137,13 +137,13 @@ impl Equations {
         }
     }
 
-    /// Numbers the unknowns and does the symbolic work.
-    pub fn analyze(
+    /// Numbers the unknowns, and returns the fields of the nodes besides the displacement.
+    pub fn number(
         &mut self,
         system: &System,
         assembler: &Assembler,
         prescribed: &[bool],
-    ) -> Result<(), LinearError> {
+    ) -> Vec<FieldBlock> {
         let layout = &system.layout;
         self.equation.clear();
         self.dofs.clear();
@@ -163,30 +163,36 @@ impl Equations {
                 self.equation.push(NONE);
             }
         }
-        let symmetry = system
-            .terms
-            .iter()
-            .map(|t| t.properties().symmetry)
-            .max()
-            .unwrap_or(Symmetry::Definite);
-        let symmetry = symmetry.max(self.turning(system));
         let fields = layout.other_nodal().map(|(id, field)| FieldBlock {
             first: layout.dof(id, 0, 0),
             width: field.ncomponent,
         });
-        let fields: Vec<FieldBlock> = fields.collect();
-        let problem = Problem {
-            ndof: layout.ndof(),
-            bulk: assembler.bulk(),
-            interface: assembler.interface(),
-            fields: &fields,
-            equation: &self.equation,
-            nequation: self.dofs.len(),
-            symmetry,
-            sign: &self.sign,
-            coordinates: &system.coordinates,
-            between: &system.between,
-        };
+        fields.collect()
+    }
+
+    /// The equations as they are numbered, with a matrix that is symmetric.
+    pub fn symmetric<'a>(
+        &'a self,
+        system: &'a System,
+        assembler: &'a Assembler,
+        fields: &'a [FieldBlock],
+    ) -> Problem<'a> {
+        let numbering = (&self.equation[..], &self.sign[..]);
+        let symmetry = symmetry(system).min(Symmetry::Symmetric);
+        problem(system, assembler, fields, numbering, symmetry)
+    }
+
+    /// Numbers the unknowns and does the symbolic work.
+    pub fn analyze(
+        &mut self,
+        system: &System,
+        assembler: &Assembler,
+        prescribed: &[bool],
+    ) -> Result<(), LinearError> {
+        let fields = self.number(system, assembler, prescribed);
+        let symmetry = symmetry(system).max(self.turning(system));
+        let numbering = (&self.equation[..], &self.sign[..]);
+        let problem = problem(system, assembler, &fields, numbering, symmetry);
         let start = Instant::now();
         let outcome = self.solver.analyze(&problem);
         self.seconds.analyze += start.elapsed().as_secs_f64();
@@ -271,5 +277,33 @@ impl Equations {
     /// The raw dof of an equation that a solver complains of.
     pub fn dof(&self, equation: Option<usize>) -> Option<Dof> {
         equation.and_then(|e| self.dofs.get(e)).copied()
+    }
+}
+
+/// The most general symmetry of any term.
+fn symmetry(system: &System) -> Symmetry {
+    let terms = system.terms.iter().map(|t| t.properties().symmetry);
+    terms.max().unwrap_or(Symmetry::Definite)
+}
+
+/// The problem with this numbering: the equation of each raw dof, and the sign of each equation.
+fn problem<'a>(
+    system: &'a System,
+    assembler: &'a Assembler,
+    fields: &'a [FieldBlock],
+    (equation, sign): (&'a [u32], &'a [i8]),
+    symmetry: Symmetry,
+) -> Problem<'a> {
+    Problem {
+        ndof: system.layout.ndof(),
+        bulk: assembler.bulk(),
+        interface: assembler.interface(),
+        fields,
+        equation,
+        nequation: sign.len(),
+        symmetry,
+        sign,
+        coordinates: &system.coordinates,
+        between: &system.between,
     }
 }

@@ -1,6 +1,6 @@
 //! What happens in a run, as one stream: the terminal, the files and Python are all fed from it.
 
-use super::Failure;
+use super::{Failure, Vibrations};
 use crate::system::{Dof, Frame};
 use signorini_linear::Note;
 
@@ -134,6 +134,15 @@ pub enum Event<'a> {
         increment: usize,
         /// What.
         note: &'a Note,
+    },
+    /// Natural modes were found, or tried to be.
+    Vibrations {
+        /// Number of the step, from 0.
+        step: usize,
+        /// The total time of the state about which they are.
+        time: f64,
+        /// They.
+        found: &'a Vibrations,
     },
     /// An increment was accepted.
     Increment {

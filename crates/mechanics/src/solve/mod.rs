@@ -47,6 +47,7 @@ mod step;
 mod stepping;
 #[cfg(test)]
 mod tests;
+mod vibration;
 mod work;
 
 pub use equations::LinearSeconds;
@@ -54,5 +55,6 @@ pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};
 pub use local_error::TimeControl;
 pub use newton::{Failure, LineSearch, NewtonSettings};
-pub use step::{Increments, Motion, Prescription, Step};
+pub use step::{Increments, Motion, Prescription, Step, Vibration};
 pub use stepping::{Outcome, RunError, Stepper, StepperSettings};
+pub use vibration::{NaturalMode, Vibrations};

@@ -1,7 +1,7 @@
 //! Steps: their increments, and the values that they prescribe.
 
 use super::TimeControl;
-use crate::system::{Dof, Scheme, TimeFunction};
+use crate::system::{Dof, Scheme, StepContext, TimeFunction};
 
 /// How a step is cut into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,8 +70,48 @@ pub struct Step {
     pub scheme: Option<Scheme>,
     /// What limits its increments there, where they adapt.
     pub control: Option<TimeControl>,
+    /// Which natural modes are found in it, at the state where it begins; it then takes no time, and changes nothing.
+    pub vibration: Option<Vibration>,
     /// What is prescribed during it; everything else is free.
     pub prescriptions: Vec<Prescription>,
+}
+
+/// Which natural modes are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vibration {
+    /// How many, at most.
+    pub count: usize,
+    /// The frequency (cycles per time) where they begin; none: with the lowest, rigid motions among them.
+    pub from: Option<f64>,
+    /// The frequency (cycles per time) where they end; none: nowhere.
+    pub to: Option<f64>,
+}
+
+impl Step {
+    /// Whether it leads from equilibrium to equilibrium.
+    #[must_use]
+    pub const fn is_static(&self) -> bool {
+        self.scheme.is_none() && self.vibration.is_none()
+    }
+
+    /// The step as terms see it, with its number and the total time at its start.
+    #[must_use]
+    pub fn context(&self, number: usize, start: f64) -> StepContext {
+        let vibrates = self.vibration.is_some();
+        StepContext {
+            number,
+            start,
+            // none passes in vibrations, and courses are functions of a part of it
+            duration: if vibrates { 1.0 } else { self.duration },
+            nonlinear: self.nonlinear,
+            // whoever has mass shows it
+            scheme: match vibrates {
+                true => Some(Scheme::hilber_hughes_taylor(0.0)),
+                false => self.scheme,
+            },
+            vibrates,
+        }
+    }
 }
 
 /// Sizes and number of the increments of a step.

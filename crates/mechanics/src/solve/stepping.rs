@@ -80,6 +80,16 @@ pub enum RunError {
         /// Duration of the step.
         duration: f64,
     },
+    /// Natural modes that did not converge.
+    #[error("step \"{step}\": {found} of {wanted} natural modes have converged")]
+    Modes {
+        /// Name of the step.
+        step: String,
+        /// How many have.
+        found: usize,
+        /// How many were wanted.
+        wanted: usize,
+    },
     /// A term refused an accepted state.
     #[error(transparent)]
     Term(#[from] TermError),
@@ -260,28 +270,38 @@ impl Stepper {
             }
             self.begin_step(system, step)
                 .map_err(|cause| self.not_begun(step, cause))?;
+            if let Some(wanted) = &step.vibration {
+                let outcome = self.vibrate(system, step, wanted, observer)?;
+                self.go_to(number + 1, step, steps);
+                if outcome == Outcome::Stopped {
+                    return Ok(outcome);
+                }
+                continue;
+            }
             if self.run_step(system, step, observer)? == Outcome::Stopped {
                 return Ok(Outcome::Stopped);
             }
-            self.progress = Progress {
-                step: number + 1,
-                step_start: self.progress.step_start + step.duration,
-                work: std::mem::take(&mut self.progress.work),
-                record: Record {
-                    calm: 0,
-                    ..self.progress.record
-                },
-                ..Progress::default()
-            };
-            // a static step leads from rest to rest
-            if steps
-                .get(number + 1)
-                .is_some_and(|next| next.scheme.is_none())
-            {
-                self.state.rates = None;
-            }
+            self.go_to(number + 1, step, steps);
         }
         Ok(Outcome::Finished)
+    }
+
+    /// Goes on to another step after one that is done.
+    fn go_to(&mut self, number: usize, done: &Step, steps: &[Step]) {
+        self.progress = Progress {
+            step: number,
+            step_start: self.progress.step_start + done.duration,
+            work: std::mem::take(&mut self.progress.work),
+            record: Record {
+                calm: 0,
+                ..self.progress.record
+            },
+            ..Progress::default()
+        };
+        // a static step leads from rest to rest
+        if steps.get(number).is_some_and(Step::is_static) {
+            self.state.rates = None;
+        }
     }
 
     /// Runs as [`Stepper::run`] does, up to a total time, at which an increment ends; [`Outcome::Stopped`] there. Where

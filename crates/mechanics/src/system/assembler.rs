@@ -510,6 +510,95 @@ impl Assembler {
         self.assemble_by(layout, elimination, terms, state, evaluate, out)
     }
 
+    /// The stiffness at an accepted state, without inertia and viscous forces.
+    ///
+    /// # Errors
+    /// As [`Assembler::assemble`].
+    pub fn assemble_stiffness(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        state: &State,
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let term = &terms[task.term];
+            let is_viscous = term.capabilities().viscous.is_some();
+            if is_viscous || term.properties().role == Role::Inertia {
+                return Ok(());
+            }
+            term.evaluate(task.chunk, state, Order::Tangent, work, buffer)
+        };
+        self.assemble_by(layout, elimination, terms, state, evaluate, out)
+    }
+
+    /// The mass in the place of the stiffness, where no increment has begun.
+    ///
+    /// # Errors
+    /// As [`Assembler::assemble`].
+    pub fn assemble_inertia(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        state: &State,
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let term = &terms[task.term];
+            match term.properties().role {
+                Role::Inertia => term.evaluate(task.chunk, state, Order::Tangent, work, buffer),
+                _ => Ok(()),
+            }
+        };
+        self.assemble_by(layout, elimination, terms, state, evaluate, out)
+    }
+
+    /// Takes the symmetric part of an operator; returns the largest entry of the rest over that of the operator.
+    pub fn symmetrize(&self, of: &mut Assembly) -> f64 {
+        let largest = of.bulk.iter().chain(&of.interface);
+        let largest = largest.fold(0.0, |most: f64, k| most.max(k.abs()));
+        let mut apart = 0.0;
+        let mut even = |values: &mut [f64], one: usize, other: usize| {
+            let pair = values.get(one).copied().zip(values.get(other).copied());
+            let Some((a, b)) = pair else { return };
+            apart = f64::max(apart, 0.5 * (a - b).abs());
+            for at in [one, other] {
+                if let Some(value) = values.get_mut(at) {
+                    *value = 0.5 * (a + b);
+                }
+            }
+        };
+        let ndim = self.bulk.block;
+        let rows = self.bulk.row_start.windows(2).enumerate();
+        for (row, range) in rows {
+            let &[begin, end] = range else { continue };
+            let columns = self.bulk.column.get(begin..end).unwrap_or_default();
+            for (block, &column) in (begin..end).zip(columns) {
+                let across = self.bulk.position(column, row as u32);
+                let Some(across) = across.filter(|_| column as usize >= row) else {
+                    continue;
+                };
+                for (i, j) in (0..ndim).flat_map(|i| (0..ndim).map(move |j| (i, j))) {
+                    let at = |block: usize, i: usize, j: usize| (block * ndim + i) * ndim + j;
+                    even(&mut of.bulk, at(block, i, j), at(across, j, i));
+                }
+            }
+        }
+        for (row, range) in self.interface.row_start.windows(2).enumerate() {
+            let &[begin, end] = range else { continue };
+            let columns = self.interface.column.get(begin..end).unwrap_or_default();
+            for (at, &column) in (begin..end).zip(columns) {
+                let across = self.interface.position(column, row as u32);
+                if let Some(across) = across.filter(|_| column as usize > row) {
+                    even(&mut of.interface, at, across);
+                }
+            }
+        }
+        if largest > 0.0 { apart / largest } else { 0.0 }
+    }
+
     /// Adds up what `evaluate` makes of every chunk, forces and stiffness.
     fn assemble_by(
         &mut self,

@@ -15,6 +15,9 @@ pub struct StepContext {
     pub nonlinear: bool,
     /// How it goes through time, where inertia counts.
     pub scheme: Option<Scheme>,
+    /// Whether nothing moves in it but small vibrations about the accepted state, which it leaves as it is: closed contact is
+    /// joined as it was accepted, sticking in all directions and sliding across alone.
+    pub vibrates: bool,
 }
 
 /// The step before any begins.
@@ -26,6 +29,7 @@ impl Default for StepContext {
             duration: 1.0,
             nonlinear: true,
             scheme: None,
+            vibrates: false,
         }
     }
 }

@@ -112,7 +112,7 @@ impl System {
 
     /// How the nodes move at a state where unknowns change at these rates. Of nodes that follow others it is a difference
     /// over a small time, good to ten digits of the largest rate.
-    fn nodal_rates(&self, state: &State, rates: &[f64]) -> Vec<Vec3> {
+    pub(crate) fn nodal_rates(&self, state: &State, rates: &[f64]) -> Vec<Vec3> {
         let layout = &self.layout;
         let motions = rates.iter().take(layout.nmotion());
         let fastest = motions.fold(0.0, |most: f64, rate| most.max(rate.abs()));

@@ -1511,6 +1511,16 @@ class Dynamics(Table):
         "`\"as-is\"`, `\"redistributed\"`",
         default="as-is",
     )
+    error_tol: Key[float, float] = Key(
+        "Of increments that adapt: their local error of displacements, over the largest displacement so far; 0: it does not count",
+        "number ≥ 0.0",
+        default=0.001,
+    )
+    impact_step: Key[float, float] = Key(
+        "Of increments that adapt: the longest in which contact closes or opens, over the time that a wave takes through an element of the secondary side; 0: any",
+        "number ≥ 0.0",
+        default=1.5,
+    )
     method: Key[Literal["generalized-alpha"], Literal["generalized-alpha"]] = Key(
         "Implicit, of second order",
         "`\"generalized-alpha\"`",
@@ -1555,6 +1565,28 @@ class Free(Table):
     u: Key[Literal["all"] | list[Literal["x", "y", "z"]] | None, Literal["all"] | Sequence[Literal["x", "y", "z"]]] = Key(
         "Displacements set free: \"all\" or a list of \"x\", \"y\", \"z\"",
         "`\"all\"` or list of `\"x\"`, `\"y\"`, `\"z\"`",
+    )
+
+
+class Frequency(Table):
+    """Which natural frequencies a frequency step finds.
+
+    TOML: `step.frequency`.
+    """
+
+    _toml = "step.frequency"
+    lower: Key[float | None, float] = Key(
+        "The frequency above which they begin (cycles per time); absent: with the lowest",
+        "number ≥ 0.0",
+    )
+    modes: Key[int, int] = Key(
+        "How many, the lowest first; rigid motions of free bodies count",
+        "whole number ≥ 1, ≤ 10000",
+        default=10,
+    )
+    upper: Key[float | None, float] = Key(
+        "The frequency at which they end, where there are not as many; absent: nowhere",
+        "number > 0.0",
     )
 
 
@@ -1803,8 +1835,9 @@ class Step(Table):
     dynamics: One[Dynamics] = One(Dynamics, "How a dynamic step goes through time", "a table")
     fixes: Items[Fix] = Items(Fix, "Supports, at the present position", "list of a table", key="fix")
     frees: Items[Free] = Items(Free, "Supports and motions of earlier steps that end", "list of a table", key="free")
+    frequency: One[Frequency] = One(Frequency, "Which natural frequencies a frequency step finds", "a table")
     geometry: Key[Literal["auto", "linear", "nonlinear"], Literal["auto", "linear", "nonlinear"]] = Key(
-        "Small displacements or any; auto: as the step before, at first nonlinear",
+        "Small displacements or any; auto: as the step before, at first nonlinear, and in frequency steps",
         "`\"auto\"`, `\"linear\"`, `\"nonlinear\"`",
         default="auto",
     )
@@ -1814,9 +1847,9 @@ class Step(Table):
         "whole number ≥ 1, ≤ 1000000000 or a table",
         default=10,
     )
-    kind: Key[Literal["static", "dynamic"], Literal["static", "dynamic"]] = Key(
-        "The kind of analysis: equilibrium, or a motion in time with inertia",
-        "`\"static\"`, `\"dynamic\"`",
+    kind: Key[Literal["static", "dynamic", "frequency"], Literal["static", "dynamic", "frequency"]] = Key(
+        "The kind of analysis: equilibrium, a motion in time with inertia, or natural frequencies about the state that earlier steps lead to, which stays as it is",
+        "`\"static\"`, `\"dynamic\"`, `\"frequency\"`",
         default="static",
     )
     loads: Items[Load] = Items(

@@ -314,7 +314,8 @@ impl Run<'_, '_> {
                 .steps
                 .iter()
                 .all(|step| step.cutbacks == 0);
-        self.in_trouble = !all_converged;
+        // another method of contact finds no more modes
+        self.in_trouble = !(all_converged || matches!(error, RunError::Modes { .. }));
         self.recorder.gave_up(error);
         self.recorder.failed(&self.model.system, stepper);
         let saved = failure::Saved {
@@ -344,6 +345,8 @@ impl Run<'_, '_> {
             .collect();
         let idle = self.recorder.idle.notes(&names, &self.model.mesh);
         self.report_unless_allowed(idle, &mut found);
+        let frequencies = self.recorder.frequencies.warnings();
+        self.report_unless_allowed(frequencies, &mut found);
         let far = drift::warnings(&self.recorder.drifts, self.model);
         self.report_unless_allowed(far, &mut found);
         if verdict.exit_code == 0 && wrong && self.options.strict {
@@ -412,6 +415,7 @@ impl Run<'_, '_> {
         Summary {
             audit: self.recorder.audit.summary(&self.model.mesh),
             steps: self.recorder.counts.steps.clone(),
+            frequencies: self.recorder.frequencies.summary(),
             contacts: std::mem::take(&mut self.recorder.contacts),
             expectations,
             work_stabilization: self.recorder.work_stabilization,

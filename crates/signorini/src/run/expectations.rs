@@ -35,6 +35,8 @@ enum Source {
     Column(usize),
     /// A field at nodes.
     Probe(Probe),
+    /// A natural frequency: the number of the step, and its own, both from 0.
+    Frequency(usize, usize),
 }
 
 impl Expectations {
@@ -71,7 +73,8 @@ impl Expectations {
 
     /// Looks at an accepted increment, which is this data row (from 1) of the history, with its numbers.
     pub fn look(&mut self, number: u64, frame: &Frame, row: &[f64]) {
-        for one in &mut self.list {
+        let of_states = self.list.iter_mut();
+        for one in of_states.filter(|one| !matches!(one.source, Source::Frequency(..))) {
             let value = one.source.value(frame, row);
             match one.part.at {
                 Moment::End => one.got = value,
@@ -84,6 +87,18 @@ impl Expectations {
                 }
             }
             one.last = [frame.time, value];
+        }
+    }
+
+    /// Takes the natural frequencies that a step has found.
+    pub fn hear(&mut self, step: usize, frequencies: &[f64]) {
+        for one in &mut self.list {
+            if let Source::Frequency(of, number) = one.source
+                && of == step
+                && let Some(frequency) = frequencies.get(number)
+            {
+                one.got = *frequency;
+            }
         }
     }
 
@@ -140,6 +155,7 @@ impl Source {
         match self {
             Self::Column(column) => row.get(*column).copied().unwrap_or(f64::NAN),
             Self::Probe(probe) => probe.value(frame),
+            Self::Frequency(..) => f64::NAN,
         }
     }
 }
@@ -163,6 +179,9 @@ fn find(
     let column = columns.iter().position(|c| *c == what.value && c != "step");
     if let Some(column) = column {
         return Ok(Source::Column(column));
+    }
+    if let Some(source) = frequency(model, &what.value) {
+        return Ok(source);
     }
     match Probe::parse(model, &what.value) {
         Some(Ok(probe)) => Ok(Source::Probe(probe)),
@@ -191,6 +210,15 @@ fn find(
             ))
         }
     }
+}
+
+/// `STEP.frequency.NUMBER`: a natural frequency that a step finds.
+fn frequency(model: &Model, what: &str) -> Option<Source> {
+    let (step, number) = what.split_once(".frequency.")?;
+    let number = number.parse::<usize>().ok()?.checked_sub(1)?;
+    let mut steps = model.steps.iter();
+    let at = steps.position(|one| one.name == step && one.vibration.is_some())?;
+    Some(Source::Frequency(at, number))
 }
 
 #[cfg(test)]

@@ -69,6 +69,12 @@ pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
             let more = remedies::more_increments(&model.case, step, *count, time / duration);
             more.into_iter().fold(one, Diagnostic::help)
         }
+        RunError::Modes { step, .. } => {
+            let one = Diagnostic::error(&codes::MODES_NOT_FOUND, error.to_string());
+            at_step(one, step, model)
+                .note("frequencies.csv says which")
+                .help("fewer `modes`, or a range of frequencies:  frequency = { lower = …, upper = … }")
+        }
         RunError::Term(cause) => Diagnostic::error(&codes::NOT_CONVERGED, cause.to_string())
             .note(saved_so_far(saved))
             .help("smaller increments, or a better mesh there"),

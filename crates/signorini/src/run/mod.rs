@@ -28,6 +28,7 @@ mod expectations;
 mod failure;
 mod fields;
 mod frd;
+mod frequencies;
 mod history;
 mod idle;
 mod limits;

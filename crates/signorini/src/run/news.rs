@@ -2,7 +2,7 @@
 
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity};
 use signorini_io::writers::json::Event;
-use signorini_mechanics::solve::{Cause, Flow, IncrementRecord, IterationRecord};
+use signorini_mechanics::solve::{Cause, Flow, IncrementRecord, IterationRecord, Vibrations};
 use signorini_mechanics::system::Frame;
 
 /// Iterations from which on an increment is called slow.
@@ -27,6 +27,8 @@ pub enum Detail<'a> {
     Start(&'a Facts),
     /// A linear solve, and the node with the largest force error.
     Iteration(&'a IterationRecord),
+    /// Natural frequencies.
+    Vibrations(&'a Vibrations),
     /// An accepted increment.
     Increment(&'a IncrementRecord, &'a Frame, &'a Effort),
     /// A frame: what was written, or would be where no format of frames is asked for.

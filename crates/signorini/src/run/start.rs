@@ -34,13 +34,7 @@ pub fn begin(model: &mut Model) -> Result<Start, Diagnostics> {
 fn look(model: &mut Model) -> Result<Frame, TermError> {
     let state = model.system.initial_state();
     let first = model.steps.first();
-    let context = StepContext {
-        number: 0,
-        start: 0.0,
-        duration: first.map_or(1.0, |s| s.duration),
-        nonlinear: first.is_none_or(|s| s.nonlinear),
-        scheme: first.and_then(|s| s.scheme),
-    };
+    let context = first.map_or_else(StepContext::default, |step| step.context(0, 0.0));
     let increment = Increment {
         number: 1,
         from: state.time,

@@ -3,6 +3,7 @@
 //! ```text
 //! hertz.out/
 //!   results.pvd  contact.pvd  frames/  hertz.frd  history.csv  convergence.csv  hertz.sta  hertz.dat
+//!   modes.pvd  frequencies.csv   where steps find natural frequencies
 //!   run.log  events.jsonl  summary.json  case.resolved.toml  view.py
 //!   checkpoint/   a.sgc b.sgc   the state, in turns
 //!                 case.toml     the case as it was read
@@ -75,9 +76,11 @@ const CASE_COPY: &str = "checkpoint/case.toml";
 const LOCK: &str = "checkpoint/lock";
 
 /// Files at the top that a new run removes before it starts; those that grow are emptied when they are opened.
-const TOP: [&str; 4] = [
+const TOP: [&str; 6] = [
     "results.pvd",
     "contact.pvd",
+    "modes.pvd",
+    "frequencies.csv",
     "summary.json",
     "case.resolved.toml",
 ];
@@ -250,7 +253,8 @@ fn is_frame(name: &str) -> bool {
     };
     let number = stem
         .strip_prefix("volume_")
-        .or_else(|| stem.strip_prefix("contact_"));
+        .or_else(|| stem.strip_prefix("contact_"))
+        .or_else(|| stem.strip_prefix("mode_"));
     stem == "failed"
         || number.is_some_and(|n| n.len() >= 4 && n.bytes().all(|b| b.is_ascii_digit()))
 }

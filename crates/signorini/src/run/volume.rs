@@ -14,6 +14,7 @@ use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::writers::vtu::{
     self, Fact, FactValue, Field, Grid, Options, SymTensor, Values, VtuError,
 };
+use signorini_mechanics::solve::NaturalMode;
 use signorini_mechanics::system::{Frame, NodalValues};
 
 /// Tensors handled by one task.
@@ -157,6 +158,37 @@ impl Volume {
         self.write(&at_nodes, &in_cells, frame)
     }
 
+    /// The bytes of a natural mode of a step, with its number among those of the step: both from 0.
+    ///
+    /// # Errors
+    /// Arrays of another mesh.
+    pub fn encode_mode(
+        &self,
+        mode: &NaturalMode,
+        step: usize,
+        number: usize,
+    ) -> Result<Vec<u8>, VtuError> {
+        let at_nodes = [
+            Field::new("displacement", Values::Vector(&mode.shape)),
+            Field::new("node_id", Values::Int64(&self.node_ids)),
+        ];
+        let in_cells = [Field::new("element_id", Values::Int64(&self.element_ids))];
+        let whole = [step, number].map(|number| [number as i64 + 1]);
+        let real = [mode.frequency(), mode.omega(), mode.eigenvalue].map(|value| [value]);
+        let whole = ["step", "mode"].into_iter().zip(&whole);
+        let real = ["frequency", "omega", "eigenvalue"].into_iter().zip(&real);
+        let whole = whole.map(|(name, value)| Fact {
+            name,
+            value: FactValue::Whole(value),
+        });
+        let real = real.map(|(name, value)| Fact {
+            name,
+            value: FactValue::Real(value),
+        });
+        let facts: Vec<Fact<'_>> = whole.chain(real).collect();
+        self.write_with(&at_nodes, &in_cells, &facts)
+    }
+
     fn write(
         &self,
         point_data: &[Field<'_>],
@@ -164,6 +196,15 @@ impl Volume {
         frame: &Frame,
     ) -> Result<Vec<u8>, VtuError> {
         let (time, place) = ([frame.time], place(frame));
+        self.write_with(point_data, cell_data, &facts(&time, &place))
+    }
+
+    fn write_with(
+        &self,
+        point_data: &[Field<'_>],
+        cell_data: &[Field<'_>],
+        facts: &[Fact<'_>],
+    ) -> Result<Vec<u8>, VtuError> {
         let grid = Grid {
             points: &self.points,
             types: &self.cells.types,
@@ -171,7 +212,7 @@ impl Volume {
             connectivity: &self.cells.connectivity,
             point_data,
             cell_data,
-            facts: &facts(&time, &place),
+            facts,
         };
         vtu::encode(&grid, &Options::default())
     }

@@ -19,7 +19,7 @@ use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
     ActivityPart, BodyPart, Change, ConstraintPart, ControlPart, LoadPart, StepPart, Target,
 };
-use signorini_mechanics::solve::{Increments, Motion};
+use signorini_mechanics::solve::{Increments, Motion, Vibration};
 use signorini_mechanics::system::{CellChange, Scheme, TimeFunction};
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
@@ -52,6 +52,7 @@ impl Builder<'_> {
                 nonlinear,
                 scheme: self.scheme(step, found),
                 control: step.dynamics.as_ref().and_then(|of| control(step, of)),
+                vibration: self.vibration(step, found),
                 changes: self.changes(step, found),
                 loads: self.loads(number, step, &mut couplings, found),
                 contacts: contacts.of(step, found),
@@ -62,7 +63,8 @@ impl Builder<'_> {
             let changes = motions + part.loads.len() + step.contacts.len();
             // overlaps at the start are resolved in the first step
             let has_contact = !self.case.contacts.is_empty() || self.case.general.is_some();
-            let begins = number == 0 && has_contact || part.scheme.is_some();
+            let moves = part.scheme.is_some() || part.vibration.is_some();
+            let begins = number == 0 && has_contact || moves;
             if changes == 0 && !begins && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
             }
@@ -87,19 +89,7 @@ impl Builder<'_> {
                     .help("name the pairs; or  contact_mass = \"as-is\""),
             );
         }
-        let mut steps = self.case.steps.iter();
-        let changed = steps.find_map(|step| {
-            let added = step.activations.first().map(|one| &one.place);
-            added.or_else(|| step.deactivations.first().map(|one| &one.place))
-        });
-        if let Some(place) = changed {
-            let message = "elements are neither removed nor added where a step is dynamic";
-            found.push(
-                Diagnostic::error(&codes::NOT_BUILT, message)
-                    .at(place, "their mass would stay")
-                    .help("delete it, or make all steps static"),
-            );
-        }
+        self.keeps_elements("dynamic", found);
         let scheme = match dynamics.method {
             DynamicMethod::GeneralizedAlpha(radius) => Scheme::generalized_alpha(radius),
             DynamicMethod::HilberHughesTaylor(alpha) => Scheme::hilber_hughes_taylor(alpha),
@@ -108,6 +98,34 @@ impl Builder<'_> {
             redistributed: *dynamics.redistributed,
             ..scheme
         })
+    }
+
+    /// The modes of a frequency step.
+    fn vibration(&self, step: &Step, found: &mut Diagnostics) -> Option<Vibration> {
+        let wanted = step.frequency.as_ref()?;
+        self.keeps_elements("a frequency step", found);
+        Some(Vibration {
+            count: usize::try_from(wanted.modes).unwrap_or(usize::MAX),
+            from: wanted.lower.filter(|lower| *lower > 0.0),
+            to: wanted.upper,
+        })
+    }
+
+    /// Masses are those of all elements.
+    fn keeps_elements(&self, kind: &str, found: &mut Diagnostics) {
+        let mut steps = self.case.steps.iter();
+        let changed = steps.find_map(|step| {
+            let added = step.activations.first().map(|one| &one.place);
+            added.or_else(|| step.deactivations.first().map(|one| &one.place))
+        });
+        if let Some(place) = changed {
+            let message = format!("elements are neither removed nor added where a step is {kind}");
+            found.push(
+                Diagnostic::error(&codes::NOT_BUILT, message)
+                    .at(place, "their mass would stay")
+                    .help("delete it, or make all steps static"),
+            );
+        }
     }
 
     fn changes(&self, step: &Step, found: &mut Diagnostics) -> Vec<Change> {

@@ -232,6 +232,7 @@ fn press_and_slide(head: &[NodeId], flat: bool) -> Vec<StepPart> {
         nonlinear: true,
         scheme: None,
         control: None,
+        vibration: None,
         changes: vec![Change::Prescribe(Target::Nodes(head.to_vec()), motions)],
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -10,6 +10,20 @@ use signorini_vocabulary::Chosen;
 /// The spectral radius of the highest frequencies, where a step gives none.
 const RHO_INF: f64 = 0.8;
 
+/// Keys of a step that would change the state about which a frequency step finds vibrations.
+const NOT_IN_FREQUENCY: [&str; 10] = [
+    "duration",
+    "increments",
+    "move",
+    "load",
+    "contact",
+    "material",
+    "activate",
+    "deactivate",
+    "temperature",
+    "print",
+];
+
 impl Builder<'_> {
     pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
         Amplitude {
@@ -55,7 +69,7 @@ impl Builder<'_> {
             if fields.has("dynamics") {
                 self.error(
                     &codes::CONTRADICTION,
-                    "`dynamics` means nothing in a static step",
+                    "`dynamics` belongs to dynamic steps",
                     &fields.place("dynamics"),
                     "delete it, or write  kind = \"dynamic\"",
                 );
@@ -76,6 +90,46 @@ impl Builder<'_> {
         })
     }
 
+    /// Which natural frequencies a step finds. Nothing but supports changes in it.
+    fn frequency(&mut self, fields: Fields<'_>) -> Option<Frequency> {
+        if fields.text("kind").value != "frequency" {
+            if fields.has("frequency") {
+                self.error(
+                    &codes::CONTRADICTION,
+                    "`frequency` belongs to frequency steps",
+                    &fields.place("frequency"),
+                    "delete it, or write  kind = \"frequency\"",
+                );
+            }
+            return None;
+        }
+        for key in NOT_IN_FREQUENCY.into_iter().filter(|key| fields.has(key)) {
+            self.error(
+                &codes::CONTRADICTION,
+                format!("`{key}` means nothing in a frequency step"),
+                &fields.place(key),
+                "it finds vibrations about the state where it begins: change that in a step before it",
+            );
+        }
+        let table = fields.table("frequency");
+        let [lower, upper] = ["lower", "upper"].map(|key| table.number_if(key));
+        if let (Some(lower), Some(upper)) = (&lower, &upper)
+            && upper.value <= lower.value
+        {
+            self.error(
+                &codes::CONTRADICTION,
+                "`upper` of `frequency` is not above `lower`",
+                &upper.place,
+                "lower < upper",
+            );
+        }
+        Some(Frequency {
+            modes: table.count("modes"),
+            lower: lower.map(|number| number.value),
+            upper: upper.map(|number| number.value),
+        })
+    }
+
     pub(super) fn step(&mut self, fields: Fields<'_>, place: Place) -> Step {
         let duration = fields
             .number_if("duration")
@@ -88,6 +142,7 @@ impl Builder<'_> {
                 _ => Geometry::Auto,
             },
             dynamics: self.dynamics(fields),
+            frequency: self.frequency(fields),
             duration,
             increments: self.increments(fields, duration),
             fixes: fields

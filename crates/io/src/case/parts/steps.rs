@@ -45,6 +45,8 @@ pub struct Step {
     pub geometry: Geometry,
     /// How it goes through time, where inertia counts.
     pub dynamics: Option<Dynamics>,
+    /// Which natural frequencies it finds; it then changes nothing but supports.
+    pub frequency: Option<Frequency>,
     /// How long it takes (time of the user's choice).
     pub duration: f64,
     /// How it is cut into increments.
@@ -91,6 +93,17 @@ pub const ERROR_TOL: f64 = 1e-3;
 /// How long they are at most in an impact, likewise.
 pub const IMPACT_STEP: f64 = 1.5;
 
+/// Which natural frequencies a step finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frequency {
+    /// How many, at most.
+    pub modes: u64,
+    /// The frequency above which they begin (cycles per time).
+    pub lower: Option<f64>,
+    /// The frequency at which they end (cycles per time).
+    pub upper: Option<f64>,
+}
+
 /// A method to go through time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DynamicMethod {
@@ -108,6 +121,7 @@ impl Step {
             name,
             geometry: Geometry::Auto,
             dynamics: None,
+            frequency: None,
             duration: 1.0,
             increments: Increments::Count(1),
             fixes: Vec::new(),

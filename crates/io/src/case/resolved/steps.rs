@@ -23,29 +23,42 @@ pub(super) fn step(step: &Step) -> Entries {
         Geometry::Linear => "linear",
         Geometry::Nonlinear => "nonlinear",
     };
-    let mut entries = vec![
-        ("name", (&step.name.value).into()),
-        (
-            "kind",
-            (if step.dynamics.is_some() {
-                "dynamic"
-            } else {
-                "static"
-            })
-            .into(),
-        ),
-        ("geometry", geometry.into()),
-        ("duration", step.duration.into()),
-        ("increments", increments(&step.increments)),
+    let kind = match (&step.dynamics, &step.frequency) {
+        (Some(_), _) => "dynamic",
+        (None, Some(_)) => "frequency",
+        (None, None) => "static",
+    };
+    let name = ("name", (&step.name.value).into());
+    let supports = [
         (
             "fix",
             tables(&step.fixes, |one| held(&one.on, one.u, one.rot)),
         ),
-        ("move", tables(&step.moves, motions)),
         (
             "free",
             tables(&step.frees, |one| held(&one.on, one.u, one.rot)),
         ),
+    ];
+    if let Some(one) = &step.frequency {
+        let [lower, upper] = [("lower", one.lower), ("upper", one.upper)];
+        let limits = [lower, upper].into_iter();
+        let limits = limits.filter_map(|(key, value)| Some((key, value?.into())));
+        let modes = ("modes", one.modes.into());
+        let frequency = Value::Table([modes].into_iter().chain(limits).collect());
+        let head = [name, ("kind", kind.into()), ("geometry", geometry.into())];
+        let own = [("frequency", frequency)];
+        return head.into_iter().chain(own).chain(supports).collect();
+    }
+    let [fix, free] = supports;
+    let mut entries = vec![
+        name,
+        ("kind", kind.into()),
+        ("geometry", geometry.into()),
+        ("duration", step.duration.into()),
+        ("increments", increments(&step.increments)),
+        fix,
+        ("move", tables(&step.moves, motions)),
+        free,
         ("load", tables(&step.loads, load)),
         ("contact", tables(&step.contacts, contact_change)),
         ("material", tables(&step.materials, material)),

@@ -28,15 +28,17 @@ pub(super) static STEP: Table = Table {
         key("name", Shape::Text, "its name, in results and messages").required(),
         key(
             "kind",
-            Shape::Choice(&[word("static"), word("dynamic")]),
-            "the kind of analysis: equilibrium, or a motion in time with inertia",
+            Shape::Choice(&[word("static"), word("dynamic"), word("frequency")]),
+            "the kind of analysis: equilibrium, a motion in time with inertia, or natural frequencies about the state that \
+             earlier steps lead to, which stays as it is",
         )
         .or(Default::Text("static")),
         key("dynamics", Shape::Table(&DYNAMICS), DYNAMICS.doc),
+        key("frequency", Shape::Table(&FREQUENCY), FREQUENCY.doc).hints(&["modal", "modes", "eigen"]),
         key(
             "geometry",
             Shape::Choice(&[word("auto"), word("linear"), word("nonlinear")]),
-            "small displacements or any; auto: as the step before, at first nonlinear",
+            "small displacements or any; auto: as the step before, at first nonlinear, and in frequency steps",
         )
         .or(Default::Text("auto"))
         .hints(&["nlgeom"]),
@@ -124,6 +126,33 @@ static DYNAMICS: Table = Table {
         .or(Default::Number(IMPACT_STEP)),
     ],
     rules: &[Rule::AtMostOne(&["rho_inf", "alpha"])],
+};
+
+static FREQUENCY: Table = Table {
+    heading: "frequency",
+    doc: "which natural frequencies a frequency step finds",
+    keys: &[
+        key(
+            "modes",
+            Shape::Integer(1, 10_000),
+            "how many, the lowest first; rigid motions of free bodies count",
+        )
+        .or(Default::Integer(10))
+        .hints(&["count", "number"]),
+        key(
+            "lower",
+            NOT_NEGATIVE,
+            "the frequency above which they begin (cycles per time); absent: with the lowest",
+        )
+        .hints(&["from", "min", "shift"]),
+        key(
+            "upper",
+            POSITIVE,
+            "the frequency at which they end, where there are not as many; absent: nowhere",
+        )
+        .hints(&["to", "max"]),
+    ],
+    rules: &[],
 };
 const INCREMENTS: &[Shape] = &[COUNT, Shape::Table(&INCREMENTS_TABLE)];
 

@@ -1,5 +1,6 @@
 mod constraints;
 mod contact;
+mod frequency;
 mod general;
 mod materials;
 mod motion;

@@ -199,6 +199,7 @@ impl Interface {
             bond_tangential: self.parts.bond_tangential,
             vectors: self.parts.has_vectors(),
             shear: self.parts.scale.shear,
+            vibrates: self.step.vibrates,
             answer: None,
         }
     }

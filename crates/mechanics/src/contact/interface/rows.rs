@@ -132,6 +132,10 @@ impl Interface {
         if let Some(row) = rows.rows_mut().first_mut() {
             row.gap += shift;
             row.sliding.held = held;
+            if self.step.vibrates {
+                // a normal that turns has no symmetric part
+                row.sliding.dnormal.fill(Vec3::ZERO);
+            }
             if laws.bond {
                 row.sliding.slip += row.normal * shift;
                 row.sliding.free = lends;
@@ -279,7 +283,14 @@ impl Interface {
         };
         let lambda = self.lambda(number, trial);
         // the tangent is that of the branch that the trial is on, to the last bit
-        let (measure, past) = (self.measure(number), self.history.past(number));
+        let (measure, past) = (
+            self.measure(number),
+            match self.step.vibrates {
+                // what slips is at its limit, and goes on slipping
+                true => self.past(number),
+                false => self.history.past(number),
+            },
+        );
         let laws = Laws {
             answer,
             ..self.laws_of(number)

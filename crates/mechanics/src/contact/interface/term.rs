@@ -45,7 +45,7 @@ impl Term for Interface {
 
     fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
         self.step = phase.step;
-        if self.is_active() && self.first_step.is_none() {
+        if self.is_active() && !phase.step.vibrates && self.first_step.is_none() {
             self.first_step = Some(phase.step);
         }
         match phase.increment {

@@ -50,6 +50,7 @@ fn traction_is_the_slope_of_the_potential() {
             bond_tangential: None,
             vectors: vector != Vec3::ZERO,
             shear: 20.0,
+            vibrates: false,
             answer: None,
         };
         let lambda = Lambda {
@@ -93,6 +94,7 @@ fn an_infinite_limit_is_sticking() {
         bond_tangential: None,
         vectors: false,
         shear: 20.0,
+        vibrates: false,
         answer: None,
     };
     let slip = Vec3::new(3.0, 4.0, 0.0);
@@ -125,6 +127,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
             bond_tangential: None,
             vectors: false,
             shear: 20.0,
+            vibrates: false,
             answer: None,
         };
         for off in [-1e-6, -1e-8, -1e-10, -1e-16, 0.0, 1e-16, 1e-10, 1e-8, 1e-6] {
@@ -164,6 +167,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
         bond_tangential: None,
         vectors: false,
         shear: 20.0,
+        vibrates: false,
         answer: None,
     };
     let held = laws.traction(&row(Vec3::unit(0)), &Lambda::default(), past);

@@ -70,6 +70,7 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
             nonlinear: true,
             scheme: None,
             control: None,
+            vibration: None,
             changes: vec![
                 Change::Prescribe(Target::Nodes((0..4).collect()), [0, 1, 2].map(held).into()),
                 Change::Prescribe(Target::Rigid(0), vec![(2, Motion::Ramp(-0.3))]),

@@ -182,6 +182,7 @@ impl<'a> Case<'a> {
             bond_tangential: None,
             vectors: true,
             shear: number("p"),
+            vibrates: false,
             answer: None,
         };
         let rows = self.rows();

@@ -40,6 +40,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                 nonlinear,
                 scheme: None,
                 control: None,
+                vibration: None,
                 changes: if number == 0 {
                     vec![support]
                 } else {

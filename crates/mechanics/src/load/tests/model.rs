@@ -41,6 +41,7 @@ fn step_with(changes: Vec<Change>, loads: Vec<Acting>, nonlinear: bool) -> StepP
         nonlinear,
         scheme: None,
         control: None,
+        vibration: None,
         changes,
         loads: loads.into_iter().enumerate().map(part).collect(),
         contacts: Vec::new(),

@@ -9,7 +9,7 @@ use crate::connector::SpringLaw;
 use crate::load::{Acting, Course};
 use crate::material::Material;
 use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes};
-use crate::solve::{Increments, Motion};
+use crate::solve::{Increments, Motion, Vibration};
 use crate::system::{CellChange, Idealisation, Scheme};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
@@ -430,6 +430,8 @@ pub struct StepPart {
     pub scheme: Option<Scheme>,
     /// What limits its increments there, where they adapt.
     pub control: Option<ControlPart>,
+    /// Which natural modes are found in it; it then takes no time.
+    pub vibration: Option<Vibration>,
     /// Changes of supports and motions; everything else stays.
     pub changes: Vec<Change>,
     /// Loads that begin or change here.
@@ -453,6 +455,7 @@ impl StepPart {
             nonlinear: true,
             scheme: None,
             control: None,
+            vibration: None,
             changes: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),

@@ -240,6 +240,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         duration: 4.0,
         nonlinear: false,
         scheme: None,
+        vibrates: false,
     };
     solid.begin(&Phase::of_step(step), &at).unwrap();
     at.time = 3.0;

@@ -100,6 +100,25 @@ impl Newton {
         Ok(())
     }
 
+    /// Lets all terms look at an accepted state, and makes room for what they couple there.
+    pub fn look_at(&mut self, system: &mut System, state: &State) -> Result<(), Failure> {
+        self.between = None;
+        self.trial.clone_from(state);
+        self.assembler.begin_increment(&system.terms);
+        self.moved();
+        self.look(system, Order::Tangent)?;
+        let (layout, elimination) = (&system.layout, &system.elimination);
+        self.assembler
+            .update_interface(layout, elimination, &system.terms);
+        Ok(())
+    }
+
+    /// Forgets what is known of the trial state and of its equations.
+    pub fn let_go(&mut self) {
+        self.moved();
+        (self.has_tangent, self.analyzed, self.coupled_more) = (false, false, true);
+    }
+
     /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.
     fn largest_residual(&mut self, system: &System, order: Order) -> Option<f64> {
         self.assemble(system, order).ok()?;

@@ -196,7 +196,7 @@ impl Newton {
         self.held.iter().map(|(dof, _)| *dof)
     }
 
-    pub(super) fn linear_failure(&self, source: LinearError) -> Failure {
+    pub(in crate::solve) fn linear_failure(&self, source: LinearError) -> Failure {
         let stiffest = || self.assembler.largest_entry(&self.assembly);
         let dof = match &source {
             LinearError::Singular { .. } if self.assembler.hides_bodies(&self.assembly) => {

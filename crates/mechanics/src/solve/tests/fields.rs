@@ -269,6 +269,7 @@ impl Bar {
             nonlinear: true,
             scheme: None,
             control: None,
+            vibration: None,
             prescriptions,
         }
     }

@@ -365,6 +365,7 @@ fn step(increments: Increments, prescribed: &[(NodeId, Motion)]) -> Step {
         nonlinear: true,
         scheme: None,
         control: None,
+        vibration: None,
         prescriptions: prescribed.iter().map(prescription).collect(),
     }
 }
@@ -421,7 +422,8 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
             | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
-            | Event::Solver { .. } => {}
+            | Event::Solver { .. }
+            | Event::Vibrations { .. } => {}
         }
         Flow::Continue
     });

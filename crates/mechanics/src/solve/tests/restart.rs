@@ -57,6 +57,7 @@ fn sliding_block() -> Model {
             nonlinear: true,
             scheme: None,
             control: None,
+            vibration: None,
             changes,
             loads: Vec::new(),
             contacts: Vec::new(),
@@ -118,7 +119,8 @@ fn advance(model: &mut Model, stepper: &mut Stepper) -> Option<Leg> {
             | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
-            | Event::Solver { .. } => {}
+            | Event::Solver { .. }
+            | Event::Vibrations { .. } => {}
         }
         Flow::Continue
     });

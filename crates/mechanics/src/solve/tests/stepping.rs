@@ -275,6 +275,7 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
             nonlinear,
             scheme: None,
             control: None,
+            vibration: None,
             changes: vec![
                 Change::Prescribe(Target::Nodes((0..4).collect()), vec![held(2)]),
                 Change::Prescribe(Target::Nodes(vec![0, 3]), vec![held(0)]),

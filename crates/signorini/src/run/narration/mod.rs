@@ -19,8 +19,8 @@ use super::limits::Stop;
 use super::news::{Detail, Facts, News, SLOW, Totals};
 use crate::text::{count, plural, short};
 use signorini_io::diagnostic::{Diagnostics, Severity};
-use signorini_io::writers::json::Event;
-use signorini_mechanics::solve::IterationRecord;
+use signorini_io::writers::json::{Event, ModeSummary};
+use signorini_mechanics::solve::{IterationRecord, Vibrations};
 
 /// How much a line matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,6 +86,16 @@ impl Narrator {
                     lines.push(line(format!("{start} slow: {worst}"), Level::Normal));
                 }
                 lines
+            }
+            (
+                Event::Frequencies {
+                    step, time, modes, ..
+                },
+                Detail::Vibrations(found),
+            ) => {
+                self.headed = None;
+                let lines = frequencies(step, *time, modes, found).into_iter();
+                lines.map(|text| line(text, Level::Normal)).collect()
             }
             (
                 Event::Cutback(_)
@@ -204,6 +214,55 @@ fn iteration(record: &IterationRecord) -> String {
         record.closed,
         record.flips
     )
+}
+
+/// The table of natural frequencies.
+fn frequencies(step: &str, time: f64, modes: &[ModeSummary], found: &Vibrations) -> Vec<String> {
+    let sizes = modes.iter().map(|mode| mode.frequency.abs());
+    let rigid = Vibrations::RIGID * sizes.fold(0.0, f64::max);
+    let [solves, factors] = found.effort;
+    let mut lines = vec![
+        format!(
+            " {step}: {} about the state at {}, {} and {}",
+            plural(modes.len(), "natural mode"),
+            digits(time),
+            plural(factors, "factor"),
+            plural(solves, "solution"),
+        ),
+        format!(
+            "  {:>4}  {:>13}  {:>13}  {:>8}  {:<}",
+            "mode", "frequency", "omega", "residual", "effective mass x, y, z (% of all)"
+        ),
+    ];
+    for mode in modes {
+        // nothing but rounding
+        let shown = |value: f64| match mode.frequency.abs() < rigid {
+            true => "0".to_owned(),
+            false => digits(value),
+        };
+        let part = |axis: usize| {
+            let all = found.mass.get(axis).copied().unwrap_or_default();
+            let own = mode.effective_mass.get(axis).copied().unwrap_or_default();
+            let part = if all > 0.0 { 100.0 * own / all } else { 0.0 };
+            format!("{part:>6.2}")
+        };
+        lines.push(format!(
+            "  {:>4}  {:>13}  {:>13}  {:>8.1e}  {} {} {}{}",
+            mode.mode,
+            shown(mode.frequency),
+            shown(mode.omega),
+            mode.residual,
+            part(0),
+            part(1),
+            part(2),
+            if mode.converged {
+                ""
+            } else {
+                "  ✗ not converged"
+            },
+        ));
+    }
+    lines
 }
 
 /// What was done where Newton's method failed or nothing resists a motion.

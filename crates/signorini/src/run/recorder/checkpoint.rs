@@ -132,6 +132,7 @@ impl Recorder<'_> {
         archive.put_f64("run/clock", &[step, self.time, self.step_time])?;
         archive.put_f64("run/frames", &self.counts.frames)?;
         archive.put_f64("run/expectations", &self.expectations.save())?;
+        archive.put_f64("run/modes", &self.frequencies.save())?;
         archive.put_f64("run/closure", &self.closure.save())?;
         archive.put_f64("run/idle", &self.idle.save())?;
         self.audit.save(&mut archive)?;

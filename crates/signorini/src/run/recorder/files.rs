@@ -6,6 +6,7 @@ use crate::run::audit::Audit;
 use crate::run::closure::Closure;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
+use crate::run::frequencies::Frequencies;
 use crate::run::idle::Idle;
 use crate::run::narration::Narrator;
 use crate::run::news::{Effort, Listener};
@@ -25,8 +26,10 @@ pub struct Opened {
     files: Files,
     results: Pvd,
     contact: Pvd,
+    modes: Pvd,
     checkpoints: Checkpoints,
     counts: Counts,
+    frequencies: Frequencies,
     expectations: Expectations,
     closure: Closure,
     idle: Idle,
@@ -68,6 +71,7 @@ impl Opened {
         let lists = [
             Pvd::new(&path("results.pvd")),
             Pvd::new(&path("contact.pvd")),
+            Pvd::new(&path("modes.pvd")),
         ];
         let steps = setting.steps.iter().map(|s| StepSummary {
             name: s.name.clone(),
@@ -142,6 +146,8 @@ impl Opened {
                 )?),
             },
         };
+        let modes = from.get_f64("run/modes").unwrap_or_default();
+        let frequencies = Frequencies::restore(modes, &setting.steps);
         let list = |name: &str, kind: &str, is_written: bool| -> Result<Pvd, OutputError> {
             if !is_written {
                 return Ok(Pvd::new(&path(name)));
@@ -157,6 +163,7 @@ impl Opened {
         let results = list("results.pvd", "volume", setting.has_vtu)?;
         let has_contact = setting.has_vtu && setting.has_contact;
         let contact = list("contact.pvd", "contact", has_contact)?;
+        let modes = modes_pvd(&setting, &frequencies)?;
         let [step, time, step_time] = clock;
         // how the run ended before says nothing about it now
         let summary = path("summary.json");
@@ -166,6 +173,7 @@ impl Opened {
         setting.fs.settle()?;
         Ok(Self {
             audit: Audit::restored(from),
+            frequencies,
             step: (step >= 0.0).then_some(step as usize),
             time,
             step_time,
@@ -174,7 +182,7 @@ impl Opened {
             ..Self::new(
                 setting,
                 files,
-                [results, contact],
+                [results, contact, modes],
                 counts,
                 expectations,
                 checkpoints,
@@ -185,7 +193,7 @@ impl Opened {
     fn new(
         setting: Setting,
         files: Files,
-        [results, contact]: [Pvd; 2],
+        [results, contact, modes]: [Pvd; 3],
         counts: Counts,
         expectations: Expectations,
         checkpoints: Checkpoints,
@@ -195,7 +203,9 @@ impl Opened {
             files,
             results,
             contact,
+            modes,
             counts,
+            frequencies: Frequencies::default(),
             expectations,
             checkpoints,
             audit: Audit::default(),
@@ -235,6 +245,8 @@ impl Opened {
             files: self.files,
             results: self.results,
             contact: self.contact,
+            modes: self.modes,
+            frequencies: self.frequencies,
             checkpoints: self.checkpoints,
             counts: self.counts,
             expectations: self.expectations,
@@ -247,6 +259,24 @@ impl Opened {
 
 fn tables(name: &str) -> String {
     format!("{name}.dat")
+}
+
+/// The list and the table of modes as they stood.
+fn modes_pvd(setting: &Setting, frequencies: &Frequencies) -> Result<Pvd, OutputError> {
+    let (fs, path) = (setting.fs.as_ref(), setting.tree.path("modes.pvd"));
+    if frequencies.nmode() > 0 {
+        let table = frequencies.table();
+        fs.write_atomic(&setting.tree.path("frequencies.csv"), table.as_bytes())?;
+    }
+    if frequencies.nmode() == 0 || !setting.has_vtu {
+        return Ok(Pvd::new(&path));
+    }
+    let entries = (1..=frequencies.nmode()).map(|number| Entry {
+        time: number as f64,
+        part: 0,
+        file: frame_file("mode", number),
+    });
+    Ok(Pvd::with_entries(fs, &path, entries.collect())?)
 }
 
 /// Where the records of the run stood.

@@ -1,11 +1,13 @@
 //! Turns the events of a run into files and news.
 //!
-//! `files` opens them, `progress` records what the solution reports, `checkpoint` saves; here are frames and news.
+//! `files` opens them, `progress` records what the solution reports, `vibrations` natural frequencies, `checkpoint` saves; here are
+//! frames and news.
 
 mod checkpoint;
 mod files;
 mod growing;
 mod progress;
+mod vibrations;
 
 pub use files::Opened;
 
@@ -18,6 +20,7 @@ use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
 use crate::run::fields::Fields;
 use crate::run::frd;
+use crate::run::frequencies::Frequencies;
 use crate::run::history::History;
 use crate::run::idle::Idle;
 use crate::run::limits::{Limits, Stop};
@@ -107,10 +110,13 @@ pub struct Recorder<'l> {
     files: Files,
     results: Pvd,
     contact: Pvd,
+    modes: Pvd,
     checkpoints: Checkpoints,
     narrator: Narrator,
     listener: &'l mut dyn Listener,
     pub counts: Counts,
+    /// Natural frequencies of all steps so far.
+    pub frequencies: Frequencies,
     pub expectations: Expectations,
     /// What every contact carried at the last accepted increment.
     pub contacts: BTreeMap<String, ContactSummary>,
@@ -364,6 +370,7 @@ impl Observer for Recorder<'_> {
                 increment,
                 note,
             } => self.solver(*step, *increment, note),
+            Happening::Vibrations { step, time, found } => self.vibrations(*step, *time, found),
             Happening::Increment { record, frame } => {
                 self.increment(record, frame);
                 if self.is_behind_steps(record) {

@@ -96,6 +96,7 @@ fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
         nonlinear,
         scheme: None,
         control: None,
+        vibration: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),

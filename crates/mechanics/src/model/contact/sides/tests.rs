@@ -152,6 +152,7 @@ fn step(changes: Vec<Change>) -> StepPart {
         nonlinear: true,
         scheme: None,
         control: None,
+        vibration: None,
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),

@@ -1,0 +1,254 @@
+//! Natural frequencies and modes about an accepted state: `K φ = ω² M φ`.
+//!
+//! `K` is the stiffness of all terms there, with that of stresses and loads, and with contact as it was accepted; `M` that of
+//! [`Role::Inertia`](crate::system::Role). Viscous forces count for nothing. Of a stiffness that is not symmetric the symmetric part is
+//! taken, `½ (K + Kᵀ)`, and [`Vibrations::asymmetry`] says how large the rest is.
+//!
+//! ```text
+//! Γ_a = φ·M e_a    m_a = Γ_a²,  Σ m_a ≤ e_a·M e_a                                                  (E5)
+//! ```
+//!
+//! with the motion `e_a` of everything by 1 along axis a.
+
+use super::event::{Event, Flow, Observer};
+use super::newton::{Failure, Newton};
+use super::step::{Step, Vibration};
+use super::stepping::{Outcome, RunError, Stepper};
+use crate::system::{Assembly, Dof, DofName, FieldId, Increment, Phase, State, System};
+use signorini_linear::{LinearError, Mode, Modes, Wanted, lowest_modes};
+use std::f64::consts::TAU;
+
+/// A natural mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NaturalMode {
+    /// ω² (1/time²); below zero where the state is not stable.
+    pub eigenvalue: f64,
+    /// ‖K φ − ω² M φ‖ over (ω² + |σ|) ‖M φ‖, with the shift σ of the method.
+    pub residual: f64,
+    /// Whether that is as small as it is to be.
+    pub has_converged: bool,
+    /// Γ of (E5), for the three axes.
+    pub participation: [f64; 3],
+    /// The motion of every node, with φ·M φ = 1.
+    pub shape: Vec<[f64; 3]>,
+}
+
+impl NaturalMode {
+    /// ω (radian per time); below zero where the state is not stable: then small motions grow as exp(|ω| t).
+    #[must_use]
+    pub fn omega(&self) -> f64 {
+        self.eigenvalue.abs().sqrt().copysign(self.eigenvalue)
+    }
+
+    /// The frequency (cycles per time), with the sign of ω.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.omega() / TAU
+    }
+
+    /// m of (E5), for the three axes.
+    #[must_use]
+    pub fn effective_mass(&self) -> [f64; 3] {
+        self.participation.map(|gamma| gamma * gamma)
+    }
+}
+
+/// The natural modes at a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vibrations {
+    /// They, lowest frequency first.
+    pub modes: Vec<NaturalMode>,
+    /// Whether no mode between the first and the last is missing.
+    pub is_counted: bool,
+    /// The mass that moves along each axis, that at supports included.
+    pub mass: [f64; 3],
+    /// The largest entry of `½ (K − Kᵀ)` over that of `K`.
+    pub asymmetry: f64,
+    /// Vectors that were solved for, and factors that were made.
+    pub effort: [usize; 2],
+}
+
+impl Vibrations {
+    /// Frequencies below this part of the largest are those of rigid motions, within rounding.
+    pub const RIGID: f64 = 1e-4;
+
+    /// Whether all modes have converged.
+    #[must_use]
+    pub fn have_converged(&self) -> bool {
+        self.modes.iter().all(|mode| mode.has_converged)
+    }
+
+    /// The modes whose frequencies are below zero by more than rounding.
+    #[must_use]
+    pub fn nunstable(&self) -> usize {
+        let size = |mode: &NaturalMode| mode.eigenvalue.abs();
+        let largest = self.modes.iter().map(size).fold(0.0, f64::max);
+        let least = -Self::RIGID * Self::RIGID * largest;
+        let modes = self.modes.iter();
+        modes.filter(|mode| mode.eigenvalue < least).count()
+    }
+}
+
+impl Stepper {
+    /// Finds natural modes, and hands them to the observer. The state stays as it is.
+    pub(super) fn vibrate(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        wanted: &Vibration,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, RunError> {
+        let found = self.newton.vibrations(system, &self.state, wanted);
+        let found = found.map_err(|cause| self.not_begun(step, cause))?;
+        let event = Event::Vibrations {
+            step: self.progress.step,
+            time: self.state.time,
+            found: &found,
+        };
+        let flow = observer.notice(&event);
+        if !found.have_converged() {
+            let converged = found.modes.iter().filter(|mode| mode.has_converged);
+            return Err(RunError::Modes {
+                step: step.name.clone(),
+                found: converged.count(),
+                wanted: wanted.count,
+            });
+        }
+        Ok(match flow {
+            Flow::Stop => Outcome::Stopped,
+            Flow::Continue => Outcome::Finished,
+        })
+    }
+}
+
+impl Newton {
+    /// The natural modes at an accepted state.
+    ///
+    /// # Errors
+    /// Terms that cannot be evaluated there, equations without a solution.
+    fn vibrations(
+        &mut self,
+        system: &mut System,
+        state: &State,
+        wanted: &Vibration,
+    ) -> Result<Vibrations, Failure> {
+        let increment = Increment {
+            number: 1,
+            from: state.time,
+            to: state.time,
+        };
+        let phase = Phase::of_increment(self.step, increment);
+        for term in &mut system.terms {
+            term.begin(&phase, state)?;
+        }
+        self.look_at(system, state)?;
+        let found = self.modes(system, wanted);
+        system.reject();
+        self.let_go();
+        let (found, mass, asymmetry) = found?;
+        let to = wanted.to.map_or(f64::INFINITY, eigenvalue);
+        let kept = found.modes.iter().filter(|mode| mode.eigenvalue <= to);
+        let modes = kept.map(|mode| self.natural(system, state, mode, &mass));
+        Ok(Vibrations {
+            modes: modes.collect(),
+            is_counted: found.is_counted,
+            mass: [0, 1, 2].map(|axis| {
+                let moved = direction(system, axis);
+                let of_axis = mass.get(axis).map_or(&[][..], |m| m);
+                moved.iter().zip(of_axis).map(|(e, m)| e * m).sum()
+            }),
+            asymmetry,
+            effort: [found.solves, found.factors],
+        })
+    }
+
+    /// The modes, what M makes of a motion along each axis, and the asymmetry of the stiffness.
+    fn modes(
+        &mut self,
+        system: &System,
+        wanted: &Vibration,
+    ) -> Result<(Modes, [Vec<f64>; 3], f64), Failure> {
+        let System {
+            layout,
+            elimination,
+            terms,
+            ..
+        } = system;
+        let mut mass = Assembly::default();
+        let (assembler, stiffness) = (&mut self.assembler, &mut self.assembly);
+        let trial = &self.trial;
+        assembler.assemble_stiffness(layout, elimination, terms, trial, stiffness)?;
+        assembler.assemble_inertia(layout, elimination, terms, trial, &mut mass)?;
+        let asymmetry = assembler.symmetrize(stiffness);
+        let of_axis = |axis: usize| {
+            let moved = direction(system, axis);
+            let mut product = vec![0.0; layout.ndof()];
+            let (bulk, interface) = (assembler.bulk(), assembler.interface());
+            signorini_linear::apply(bulk, interface, &mass.values(), &moved, &mut product);
+            product
+        };
+        let along = [0, 1, 2].map(of_axis);
+        let fields = self.equations.number(system, assembler, &self.prescribed);
+        let wanted = Wanted {
+            count: wanted.count,
+            from: wanted.from.filter(|from| *from > 0.0).map(eigenvalue),
+        };
+        let solve = |stiffness: &Assembly| {
+            let problem = self.equations.symmetric(system, assembler, &fields);
+            lowest_modes(&problem, [stiffness.values(), mass.values()], wanted)
+        };
+        let mut outcome = solve(stiffness);
+        if matches!(outcome, Err(LinearError::Singular { .. }))
+            && assembler.relax(layout, stiffness) > 0
+        {
+            outcome = solve(stiffness);
+        }
+        let found = outcome.map_err(|source| self.linear_failure(source))?;
+        Ok((found, along, asymmetry))
+    }
+
+    /// A mode with the motions of all nodes.
+    fn natural(
+        &self,
+        system: &System,
+        state: &State,
+        mode: &Mode,
+        mass: &[Vec<f64>; 3],
+    ) -> NaturalMode {
+        let mut rates = vec![0.0; system.layout.ndof()];
+        for (&dof, value) in self.equations.dofs().iter().zip(&mode.shape) {
+            if let Some(rate) = rates.get_mut(dof as usize) {
+                *rate = *value;
+            }
+        }
+        let product = |of_axis: &Vec<f64>| rates.iter().zip(of_axis).map(|(x, m)| x * m).sum();
+        let shape = system.nodal_rates(state, &rates);
+        NaturalMode {
+            eigenvalue: mode.eigenvalue,
+            residual: mode.residual,
+            has_converged: mode.has_converged(),
+            participation: mass.each_ref().map(product),
+            shape: shape.iter().map(|u| u.to_array()).collect(),
+        }
+    }
+}
+
+/// λ of a frequency in cycles per time.
+fn eigenvalue(frequency: f64) -> f64 {
+    (TAU * frequency).powi(2)
+}
+
+/// The motion of everything by 1 along an axis.
+fn direction(system: &System, axis: usize) -> Vec<f64> {
+    let layout = &system.layout;
+    let mut moved = vec![0.0; layout.ndof()];
+    for (dof, value) in moved.iter_mut().enumerate() {
+        let name = layout.name(dof as Dof);
+        let moves = name.is_some_and(|name: DofName| {
+            let is_motion = matches!(name.field, FieldId::DISPLACEMENT | FieldId::TRANSLATION);
+            is_motion && name.component == axis
+        });
+        *value = f64::from(u8::from(moves));
+    }
+    moved
+}
