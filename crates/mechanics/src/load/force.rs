@@ -30,7 +30,7 @@ impl Load for Force {
         None
     }
 
-    fn resultant(&self) -> Option<[Vec3; 2]> {
+    fn resultant(&self, _: f64) -> Option<[Vec3; 2]> {
         Some([self.0, Vec3::ZERO])
     }
 
@@ -67,7 +67,7 @@ impl Load for Wrench {
         None
     }
 
-    fn resultant(&self) -> Option<[Vec3; 2]> {
+    fn resultant(&self, _: f64) -> Option<[Vec3; 2]> {
         Some([self.force, self.moment])
     }
 

@@ -28,8 +28,8 @@ impl Load for Gravity {
         }
     }
 
-    fn acceleration(&self) -> Option<Vec3> {
-        Some(self.0)
+    fn resultant(&self, mass: f64) -> Option<[Vec3; 2]> {
+        Some([self.0 * mass, Vec3::ZERO])
     }
 
     fn following(&self, _: bool) -> Option<Arc<dyn Load>> {

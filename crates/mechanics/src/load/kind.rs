@@ -15,13 +15,9 @@ pub trait Load: Debug + Send + Sync {
     /// What it is, and what it acts on.
     fn properties(&self) -> LoadProperties;
 
-    /// Its force and moment on a carrier; `None` where it does not act on what moves as a whole.
-    fn resultant(&self) -> Option<[Vec3; 2]> {
-        None
-    }
-
-    /// The acceleration that it gives to all mass alike; `None` where it does not.
-    fn acceleration(&self) -> Option<Vec3> {
+    /// Its force and moment on a carrier with this mass, of a load by mass at the centroid; `None` where it does not act on what
+    /// moves as a whole.
+    fn resultant(&self, _mass: f64) -> Option<[Vec3; 2]> {
         None
     }
 

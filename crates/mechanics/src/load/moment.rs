@@ -31,7 +31,7 @@ impl Load for Moment {
         None
     }
 
-    fn resultant(&self) -> Option<[Vec3; 2]> {
+    fn resultant(&self, _: f64) -> Option<[Vec3; 2]> {
         Some([Vec3::ZERO, self.0])
     }
 

@@ -16,19 +16,19 @@ pub struct Weight {
 }
 
 impl Weight {
-    /// The weight of a body under this acceleration of all mass.
+    /// The weight of a body: this force.
     #[must_use]
     pub fn new(
         name: impl Into<String>,
         layout: Layout,
         body: RigidMass,
-        acceleration: Vec3,
+        force: Vec3,
         schedule: Schedule,
     ) -> Self {
         Self {
             name: name.into(),
             layout,
-            force: acceleration * body.mass,
+            force,
             body,
             clock: Clock::new(schedule),
         }

@@ -150,18 +150,18 @@ impl Context<'_> {
         };
         let Acting { load, place } = &part.load;
         let site = match place {
-            Place::Carrier(carrier) if load.acceleration().is_some() => {
-                let acceleration = load.acceleration().unwrap_or_default();
-                let mut heavy = self.heavy.iter();
-                let body = heavy.find(|body| body.carrier == *carrier);
-                let body = *body.ok_or_else(|| named(LoadError::Massless))?;
-                let weight = Weight::new(name, self.layout, body, acceleration, schedule);
-                return Ok(Some(Box::new(weight)));
-            }
             Place::Carrier(carrier) => {
-                let wrench = load
-                    .resultant()
-                    .ok_or_else(|| named(LoadError::Misplaced))?;
+                let by_mass = load.properties().domain == Domain::Mass;
+                let mut heavy = self.heavy.iter().filter(|_| by_mass);
+                let body = heavy.find(|body| body.carrier == *carrier);
+                let mass = body.map_or(0.0, |body| body.mass);
+                let wrench = load.resultant(mass);
+                let wrench = wrench.ok_or_else(|| named(LoadError::Misplaced))?;
+                if by_mass {
+                    let body = *body.ok_or_else(|| named(LoadError::Massless))?;
+                    let weight = Weight::new(name, self.layout, body, wrench[0], schedule);
+                    return Ok(Some(Box::new(weight)));
+                }
                 return Ok(self.on_carrier(name, *carrier, wrench, schedule, steps));
             }
             Place::Nodes(nodes) => {

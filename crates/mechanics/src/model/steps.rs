@@ -7,7 +7,6 @@ use crate::solve::{Motion, Prescription, Step};
 use crate::system::{Dof, DofName, FieldId, Idealisation, NO_DOF, RigidMass};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
-use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Component of a carrier along the axis of an axisymmetric model.
@@ -194,12 +193,7 @@ impl Context<'_> {
                     prescribed.remove(&dof);
                 }
             }
-            // mass moves unless something holds it
-            let moves = part.scheme.is_some() || part.vibration.is_some();
-            let by_mass = self
-                .moved_by_mass()
-                .filter(|dof| moves && !named.contains(dof));
-            let by_mass: BTreeSet<Dof> = by_mass.collect();
+            let by_mass = self.released(&part, &named);
             if part.scheme.is_some() {
                 prescribed.retain(|dof, _| !by_mass.contains(dof));
             }
@@ -224,6 +218,15 @@ impl Context<'_> {
             });
         }
         Ok((steps, loads))
+    }
+
+    /// The unknowns along which mass moves in a step unless something holds it.
+    fn released(&self, part: &StepPart, named: &BTreeSet<Dof>) -> BTreeSet<Dof> {
+        let moves = part.scheme.is_some() || part.vibration.is_some();
+        let by_mass = self.moved_by_mass();
+        by_mass
+            .filter(|dof| moves && !named.contains(dof))
+            .collect()
     }
 
     /// The unknowns of rigid bodies with a mass that inertia acts along: translations, and rotations that have some.
@@ -256,9 +259,8 @@ impl Context<'_> {
             let Place::Carrier(carrier) = part.load.place else {
                 continue;
             };
-            let load = &part.load.load;
-            let weight = load.acceleration().map(|g| [g, Vec3::ZERO]);
-            let [force, moment] = weight.or_else(|| load.resultant()).unwrap_or_default();
+            // the direction of a weight is enough
+            let [force, moment] = part.load.load.resultant(1.0).unwrap_or_default();
             let values = force.to_array().into_iter().chain(moment.to_array());
             for (component, _) in values.enumerate().filter(|(_, value)| *value != 0.0) {
                 self.may_move(step, carrier, component)?;

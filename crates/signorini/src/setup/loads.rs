@@ -59,7 +59,7 @@ pub(super) fn on_rigid_bodies(
     acting: &Acting,
     carriers: &Carriers,
 ) -> Vec<(String, Acting)> {
-    if load.on.as_str() != ALL || acting.load.acceleration().is_none() {
+    if load.on.as_str() != ALL || !acts_by_mass(acting.load.as_ref()) {
         return Vec::new();
     }
     let on = |(carrier, name): (RigidId, &str)| {
@@ -68,6 +68,11 @@ pub(super) fn on_rigid_bodies(
         (name.to_owned(), Acting { load, place })
     };
     carriers.with_mass().map(on).collect()
+}
+
+/// Whether a load acts on what moves as a whole by its mass.
+fn acts_by_mass(load: &dyn Load) -> bool {
+    load.properties().domain == Domain::Mass && load.resultant(1.0).is_some()
 }
 
 /// What loads refer to.
@@ -127,7 +132,7 @@ impl Context<'_> {
         carrier: RigidId,
         found: &mut Diagnostics,
     ) -> Option<()> {
-        if acts.acceleration().is_some() {
+        if acts_by_mass(acts) {
             if self.carriers.has_mass(carrier) {
                 return Some(());
             }
@@ -141,7 +146,7 @@ impl Context<'_> {
             );
             return None;
         }
-        if acts.resultant().is_none() {
+        if acts.resultant(1.0).is_none() {
             let message = format!(
                 "`{}` does not act on {}, which moves as a whole",
                 load.kind.name,

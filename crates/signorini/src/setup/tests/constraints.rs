@@ -38,7 +38,7 @@ fn references_carry_rigid_bodies_and_nodes() {
     );
     let load = &built.steps[0].loads[0].load;
     assert_eq!(load.place, Place::Carrier(0));
-    assert_eq!(load.load.resultant(), Some([Vec3::ZERO, Vec3::unit(0)]));
+    assert_eq!(load.load.resultant(0.0), Some([Vec3::ZERO, Vec3::unit(0)]));
 }
 
 #[test]
