@@ -249,3 +249,25 @@ fn what_means_nothing_in_such_a_step_is_refused() {
         bar(4, "", "frequency = { modes = 3 }").replace("\"frequency\"\n", "\"static\"\n");
     assert!(refusal(&is_static).contains("belongs to frequency steps"));
 }
+
+/// A mass on a reference that leads the end of a bar without mass: `√(k/m)`.
+#[test]
+fn a_mass_on_a_reference_vibrates() {
+    let text = "[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 1, 1], [4, 0, 1]]\n\
+         elements = [{ id = 1, type = \"quad4\", group = \"e\", nodes = [1, 2, 3, 4] }]\n\
+         [model]\nspace = \"plane-strain\"\n[reference.end]\nat = [1.5, 0.5]\n\
+         [material.m]\nmodel = \"linear-elastic\"\nE = 900.0\nnu = 0.0\ndensity = 1e-9\n\
+         [[body]]\ngroup = \"e\"\nmaterial = \"m\"\n\
+         [sets]\nbase = { nodes = [1, 4] }\ntip = { nodes = [2, 3] }\n\
+         [[constraint]]\nkind = \"kinematic\"\non = \"tip\"\nreference = \"end\"\n\
+         [[mass]]\non = \"end\"\nvalue = 2.0\ninertia = 0.5\n\
+         [[step]]\nname = \"modes\"\nkind = \"frequency\"\nfrequency = { modes = 3 }\n\
+         fix = [{ on = \"base\", u = \"all\" }, { on = \"end\", u = [\"y\"], rot = [\"z\"] }]\n";
+    let done = solve(text);
+    let [only] = done.omegas()[..] else {
+        panic!("{:?}", done.omegas());
+    };
+    assert!((only - 450f64.sqrt()).abs() < 1e-8 * only, "{only}");
+    let mass = done.modes().modes[0].effective_mass[0];
+    assert!((mass - 2.0).abs() < 1e-8, "{mass}");
+}
