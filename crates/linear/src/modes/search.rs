@@ -1,8 +1,8 @@
 //! Lanczos' method by blocks, with thick restarts.
 
 use super::basis::{Basis, dot, eigen};
+use super::mode::{Mode, Modes, Wanted};
 use super::pencil::Pencil;
-use super::{Mode, Modes, Wanted};
 use crate::error::LinearError;
 
 /// Vectors of a block: eigenvalues that occur as often come at once.

@@ -186,13 +186,9 @@ impl Model {
         let sides = all_sides(&source, &joint, &mut layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
         let (modulus, shear_modulus) = moduli(bodies);
-        let moves = parts.steps.iter().any(|step| step.scheme.is_some());
-        if modulus.iter().all(Option::is_none) && parts.springs.is_empty() && !moves {
-            return Err(ModelError::NothingDeforms);
-        }
+        something_deforms(&modulus, &parts)?;
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
         let temperature = temperatures(parts.temperature, &parts.steps);
-
         let loose = loose(&body_of_node, &parts.constraints, &parts.springs);
         let mut context = Context {
             mesh,
@@ -212,15 +208,12 @@ impl Model {
             poses,
             activity,
         };
-        context.heavy = context
-            .rigid_masses(&parts.masses, &parts.carrier_masses)
-            .into();
+        context.weigh(&parts.masses, &parts.carrier_masses);
         let (mut steps, loads) = context.steps(parts.steps, contacts)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
         let loads = loads::terms(&context, &steps, loads)?;
-        let elimination = context.elimination.clone();
         let held_by_contact =
             followers.held_by_contact(&context, &joint, &steps, parts.hold_free)?;
         let held = parts.stabilize.then_some(&held_by_contact[..]);
@@ -228,7 +221,6 @@ impl Model {
         let (mut terms, locking) = context.bodies(parts.bodies, temperature, &steps)?;
         terms.extend(connectors);
         let summaries = context.interfaces(sides, &joint, &mut terms)?;
-        let heavy = context.heavy.clone();
         let rates = context.rates_at_start(parts.velocity, &parts.carrier_velocities);
         let inertia = context.inertia(&steps, contacts, &parts.masses, rates.as_ref())?;
         terms.extend(loads.into_iter().chain(dampers).chain(inertia));
@@ -236,14 +228,14 @@ impl Model {
             unused: unused(&body_of_node),
             system: System {
                 layout,
+                elimination: context.elimination.clone(),
+                heavy: context.heavy.clone(),
                 coordinates: reference.iter().map(|x| x.to_array()).collect(),
                 reference,
-                elimination,
                 terms,
                 body: body_of_node,
                 between,
                 ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
-                heavy,
                 rates,
                 wanted: crate::system::Wanted::default(),
             },
@@ -252,6 +244,16 @@ impl Model {
             locking,
             held_by_contact,
         })
+    }
+}
+
+/// Where nothing deforms, only inertia gives equations.
+fn something_deforms(modulus: &[Option<f64>], parts: &Parts<'_>) -> Result<(), ModelError> {
+    let moves = parts.steps.iter().any(|step| step.scheme.is_some());
+    let is_rigid = modulus.iter().all(Option::is_none) && parts.springs.is_empty();
+    match is_rigid && !moves {
+        true => Err(ModelError::NothingDeforms),
+        false => Ok(()),
     }
 }
 

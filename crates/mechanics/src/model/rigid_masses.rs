@@ -8,12 +8,12 @@ use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
 
 impl Context<'_> {
-    /// The carriers that have a mass.
-    pub(super) fn rigid_masses(
-        &self,
-        at_nodes: &[(NodeId, f64)],
-        given: &[CarrierMass],
-    ) -> Vec<RigidMass> {
+    /// Finds the carriers that have a mass.
+    pub(super) fn weigh(&mut self, at_nodes: &[(NodeId, f64)], given: &[CarrierMass]) {
+        self.heavy = self.rigid_masses(at_nodes, given).into();
+    }
+
+    fn rigid_masses(&self, at_nodes: &[(NodeId, f64)], given: &[CarrierMass]) -> Vec<RigidMass> {
         let carriers = self.elimination.bodies();
         let mut moments = vec![Moments::default(); carriers.len()];
         let origin = |carrier: RigidId| {

@@ -1,6 +1,7 @@
 //! What happens in a run, as one stream: the terminal, the files and Python are all fed from it.
 
-use super::{Failure, Vibrations};
+use super::Failure;
+use super::natural::Vibrations;
 use crate::system::{Dof, Frame};
 use signorini_linear::Note;
 

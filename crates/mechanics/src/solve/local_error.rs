@@ -10,8 +10,7 @@
 //! takes through an element or two: the force of an impact acts at once, and the error of displacements sees it late.
 
 use super::newton::Failure;
-use crate::system::{Choices, Scheme, State, System, moved};
-use signorini_geometry::tensor::Vec3;
+use crate::system::{Choices, Scheme, State, System};
 
 /// What limits increments that adapt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,13 +59,15 @@ pub(super) fn look(
     let h = to.time - from.time;
     let closed = system.choices().map(Choices::nactive).sum();
     let mut after = Record {
-        largest: before.largest.max(largest(system, to)),
+        largest: before.largest.max(system.largest_displacement(to)),
         calm: before.calm + 1,
         closed,
         is_easy: true,
     };
     if let Some(tolerance) = control.tolerance {
-        let error = error(scheme, system, [from, to], h);
+        let factor = 1.0 / 6.0 + 0.5 * (scheme.alpha_f - scheme.alpha_m) - scheme.beta;
+        let change = system.change_of_acceleration(scheme, [from, to]);
+        let error = h * h * factor.abs() * change;
         let allowed = tolerance * after.largest.max(FLOOR * extent);
         if error > allowed {
             return Err(Failure::Inaccurate { error, allowed });
@@ -92,46 +93,4 @@ pub(super) fn next(control: &TimeControl, record: &Record, h: f64) -> f64 {
     } else {
         h
     }
-}
-
-/// The largest displacement of a node or a rigid body with a mass.
-fn largest(system: &System, state: &State) -> f64 {
-    let of_nodes = state.x.iter().zip(system.reference.iter());
-    let of_nodes = of_nodes.map(|(x, start)| (*x - *start).norm());
-    let bodies = system.elimination.bodies();
-    let of_bodies = system.heavy.iter().filter_map(|body| {
-        let carrier = body.carrier as usize;
-        let start = bodies.get(carrier)?.reference;
-        Some((state.poses.get(carrier)?.origin - start).norm())
-    });
-    of_nodes.chain(of_bodies).fold(0.0, f64::max)
-}
-
-/// (E5).
-fn error(scheme: &Scheme, system: &System, [from, to]: [&State; 2], h: f64) -> f64 {
-    let Some(rates) = &from.rates else {
-        return 0.0;
-    };
-    let factor = 1.0 / 6.0 + 0.5 * (scheme.alpha_f - scheme.alpha_m) - scheme.beta;
-    let change =
-        |way: Vec3, v: Vec3, a: Vec3| (scheme.acceleration(way, h, v, a) - a).norm_squared();
-    let mut is_massless = system.massless().iter().copied().peekable();
-    let (mut sum, mut count) = (0.0, 0_usize);
-    let nodes =
-        to.x.iter()
-            .zip(&from.x)
-            .zip(&rates.velocity)
-            .zip(&rates.acceleration);
-    for (node, (((to, from), v), a)) in (0..).zip(nodes) {
-        if is_massless.next_if_eq(&node).is_none() {
-            sum += change(*to - *from, *v, *a);
-            count += 1;
-        }
-    }
-    for (body, rates) in system.heavy.iter().zip(&rates.bodies) {
-        let way = body.way(from, moved(&system.layout, [from, to], body.carrier));
-        sum += change(way.centroid, rates.velocity, rates.acceleration);
-        count += 1;
-    }
-    h * h * factor.abs() * (sum / count.max(1) as f64).sqrt()
 }

@@ -34,12 +34,14 @@
 //! This room knows nothing of solids or contact: all it sees is [`crate::system::Term`].
 
 mod begin;
+mod checkpoint;
 mod economy;
 mod equations;
 mod event;
 mod forecast;
 mod line_search;
 mod local_error;
+mod natural;
 mod nearby;
 mod newton;
 mod stabilization;
@@ -54,7 +56,7 @@ pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};
 pub use local_error::TimeControl;
+pub use natural::{NaturalMode, Vibrations};
 pub use newton::{Failure, LineSearch, NewtonSettings};
 pub use step::{Increments, Motion, Prescription, Step, Vibration};
 pub use stepping::{Outcome, RunError, Stepper, StepperSettings};
-pub use vibration::{NaturalMode, Vibrations};

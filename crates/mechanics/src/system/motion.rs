@@ -18,9 +18,8 @@
 //! Sources: Chung and Hulbert, J. Appl. Mech. 60, 1993; Hilber, Hughes and Taylor, EESD 5, 1977; Brüls, Cardona and Arnold,
 //! Mech. Mach. Theory 48, 2012 (the time of the acceleration).
 
-use super::BodyRates;
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Mat3, Vec3};
 
 /// The numbers of a method of the family (E4).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,6 +130,64 @@ impl Rates {
             if let Some(a) = self.acceleration.get_mut(node) {
                 *a = Vec3::ZERO;
             }
+        }
+    }
+}
+
+/// How a rigid body with a mass moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyRates {
+    /// Of its centroid.
+    pub velocity: Vec3,
+    /// Of its centroid, at the time of (E7) of `motion`.
+    pub acceleration: Vec3,
+    /// Angular velocity Ω, along axes that turn with the body (radian per time).
+    pub spin: Vec3,
+    /// Angular acceleration A, likewise.
+    pub spin_rate: Vec3,
+}
+
+/// The way of a rigid body in an increment (E8) of `rigid_motion`.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyWay {
+    /// Δs.
+    pub centroid: Vec3,
+    /// Ψ.
+    pub turn: Vec3,
+    /// R s₀ at both ends.
+    pub arms: [Vec3; 2],
+    /// R₀; 1 where motions are small.
+    pub start: Mat3,
+}
+
+impl BodyRates {
+    /// Those at the end of an increment of length `h` (E9) of `rigid_motion`.
+    #[must_use]
+    pub fn advanced(&self, scheme: &Scheme, h: f64, way: &BodyWay) -> Self {
+        let acceleration = scheme.acceleration(way.centroid, h, self.velocity, self.acceleration);
+        let spin_rate = scheme.acceleration(way.turn, h, self.spin, self.spin_rate);
+        Self {
+            velocity: scheme.velocity(h, self.velocity, [self.acceleration, acceleration]),
+            acceleration,
+            spin: scheme.velocity(h, self.spin, [self.spin_rate, spin_rate]),
+            spin_rate,
+        }
+    }
+
+    /// As numbers, for archives.
+    #[must_use]
+    pub fn to_vectors(&self) -> [Vec3; 4] {
+        [self.velocity, self.acceleration, self.spin, self.spin_rate]
+    }
+
+    /// The inverse of [`BodyRates::to_vectors`].
+    #[must_use]
+    pub const fn from_vectors([velocity, acceleration, spin, spin_rate]: [Vec3; 4]) -> Self {
+        Self {
+            velocity,
+            acceleration,
+            spin,
+            spin_rate,
         }
     }
 }

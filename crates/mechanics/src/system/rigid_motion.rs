@@ -12,7 +12,8 @@
 //!
 //! Source: Brüls and Cardona, J. Comput. Nonlinear Dyn. 5, 2010.
 
-use super::{Layout, Scheme, State};
+use super::motion::{BodyRates, BodyWay};
+use super::{Layout, State};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
@@ -27,19 +28,6 @@ pub struct RigidMass {
     pub arm: Vec3,
     /// Its moments of inertia about the centroid, along the axes of the frame at the start: those that turn with it.
     pub inertia: Sym3,
-}
-
-/// How a rigid body with a mass moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BodyRates {
-    /// Of its centroid.
-    pub velocity: Vec3,
-    /// Of its centroid, at the time of (E7) of `motion`.
-    pub acceleration: Vec3,
-    /// Angular velocity Ω, along axes that turn with the body (radian per time).
-    pub spin: Vec3,
-    /// Angular acceleration A, likewise.
-    pub spin_rate: Vec3,
 }
 
 /// How a carrier gets from one state to another: its translation, and the rotation vector between.
@@ -61,19 +49,6 @@ pub fn moved(layout: &Layout, [from, to]: [&State; 2], carrier: RigidId) -> [Vec
         (end.rotation * start.rotation.transpose()).rotation_vector()
     };
     [end.origin - start.origin, turn]
-}
-
-/// The way of a rigid body in an increment (E8).
-#[derive(Clone, Copy, Debug)]
-pub struct BodyWay {
-    /// Δs.
-    pub centroid: Vec3,
-    /// Ψ.
-    pub turn: Vec3,
-    /// R s₀ at both ends.
-    pub arms: [Vec3; 2],
-    /// R₀; 1 where motions are small.
-    pub start: Mat3,
 }
 
 impl RigidMass {
@@ -162,37 +137,5 @@ impl RigidMass {
     pub fn kinetic(&self, rates: &BodyRates) -> f64 {
         let turning = rates.spin.dot(self.inertia.to_mat3() * rates.spin);
         0.5 * (self.mass * rates.velocity.norm_squared() + turning)
-    }
-}
-
-impl BodyRates {
-    /// Those at the end of an increment of length `h` (E9).
-    #[must_use]
-    pub fn advanced(&self, scheme: &Scheme, h: f64, way: &BodyWay) -> Self {
-        let acceleration = scheme.acceleration(way.centroid, h, self.velocity, self.acceleration);
-        let spin_rate = scheme.acceleration(way.turn, h, self.spin, self.spin_rate);
-        Self {
-            velocity: scheme.velocity(h, self.velocity, [self.acceleration, acceleration]),
-            acceleration,
-            spin: scheme.velocity(h, self.spin, [self.spin_rate, spin_rate]),
-            spin_rate,
-        }
-    }
-
-    /// As numbers, for archives.
-    #[must_use]
-    pub fn to_vectors(&self) -> [Vec3; 4] {
-        [self.velocity, self.acceleration, self.spin, self.spin_rate]
-    }
-
-    /// The inverse of [`BodyRates::to_vectors`].
-    #[must_use]
-    pub const fn from_vectors([velocity, acceleration, spin, spin_rate]: [Vec3; 4]) -> Self {
-        Self {
-            velocity,
-            acceleration,
-            spin,
-            spin_rate,
-        }
     }
 }
