@@ -405,7 +405,7 @@ fn what_a_dynamic_step_needs_is_said() {
     let still = text.replace("kind = \"dynamic\"\n", "");
     let refused = refusal(&still);
     assert!(
-        refused.contains("`dynamics` means nothing in a static step"),
+        refused.contains("`dynamics` belongs to dynamic steps"),
         "{refused}"
     );
     let still = still.replace("dynamics = { rho_inf = 0.8 }\n", "");
