@@ -255,7 +255,16 @@ mod tests {
             Vec3::new(-1.0, 0.0, 0.0),
             Vec3::new(0.36, -0.48, 0.8),
         ];
-        for angle in [0.0, 1e-12, 1e-9, 1e-7, 1e-3, 1.0, 3.0, 3.141592] {
+        for angle in [
+            0.0,
+            1e-12,
+            1e-9,
+            1e-7,
+            1e-3,
+            1.0,
+            3.0,
+            std::f64::consts::PI - 1e-6,
+        ] {
             for axis in axes {
                 let vector = axis * angle;
                 let back = Mat3::rotation(vector).rotation_vector();

@@ -47,7 +47,7 @@ impl Moments {
     /// Adds those of a point mass at `y`.
     pub fn push(&mut self, mass: f64, y: Vec3) {
         self.mass += mass;
-        self.first = self.first + y * mass;
+        self.first += y * mass;
         self.second = self.second + Sym3::symmetric_part(Mat3::outer(y, y)) * mass;
     }
 
