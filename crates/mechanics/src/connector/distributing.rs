@@ -218,8 +218,7 @@ impl Distributing {
     /// Translation, rotation, multipliers.
     fn carrier_dofs(&self) -> [Dof; 12] {
         std::array::from_fn(|k| match k {
-            0..3 => self.layout.translation(self.carrier, k),
-            3..6 => self.layout.rotation(self.carrier, k - 3),
+            0..6 => self.layout.carrier_motion(self.carrier, k),
             _ => self.multipliers[k - 6],
         })
     }

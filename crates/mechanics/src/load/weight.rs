@@ -35,11 +35,7 @@ impl Weight {
     }
 
     fn dofs(&self) -> [Dof; 6] {
-        let (layout, carrier) = (&self.layout, self.body.carrier);
-        std::array::from_fn(|k| match k {
-            0..3 => layout.translation(carrier, k),
-            _ => layout.rotation(carrier, k - 3),
-        })
+        self.layout.of_carrier(self.body.carrier)
     }
 
     fn turns(&self) -> bool {

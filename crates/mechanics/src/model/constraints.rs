@@ -709,17 +709,14 @@ fn distinct(nodes: &[NodeId]) -> Vec<NodeId> {
 
 /// All components of a carrier.
 pub(super) fn components(layout: &Layout, carrier: RigidId) -> impl Iterator<Item = Dof> + use<> {
-    let layout = *layout;
-    let along = (0..3).map(move |c| layout.translation(carrier, c));
-    let about = (0..3).map(move |c| layout.rotation(carrier, c));
-    along.chain(about).filter(|&d| d != NO_DOF)
+    let dofs = layout.of_carrier(carrier).into_iter();
+    dofs.filter(|&d| d != NO_DOF)
 }
 
 fn dof_of(unknown: Unknown, layout: &Layout) -> Dof {
     match unknown {
         Unknown::Node(node, axis) => layout.node(node, axis),
-        Unknown::Carrier(carrier, k) if k < 3 => layout.translation(carrier, k),
-        Unknown::Carrier(carrier, k) => layout.rotation(carrier, k - 3),
+        Unknown::Carrier(carrier, k) => layout.carrier_motion(carrier, k),
     }
 }
 

@@ -105,8 +105,7 @@ impl Context<'_> {
     fn dofs(&self, target: &Target, component: usize) -> Result<Vec<Dof>, ModelError> {
         let layout = &self.layout;
         let dofs = match target {
-            Target::Rigid(body) if component < 3 => vec![layout.translation(*body, component)],
-            Target::Rigid(body) => vec![layout.rotation(*body, component - 3)],
+            Target::Rigid(body) => vec![layout.carrier_motion(*body, component)],
             Target::Nodes(_) if component >= 3 => Vec::new(),
             Target::Nodes(nodes) => {
                 for &node in nodes {
@@ -239,13 +238,10 @@ impl Context<'_> {
                 if self.is_off_axis(carrier, component) {
                     return None;
                 }
-                let turns = component.checked_sub(3).map(|axis| about[axis] > 0.0);
-                let dof = match turns {
-                    None => self.layout.translation(carrier, component),
-                    Some(true) => self.layout.rotation(carrier, component - 3),
-                    Some(false) => NO_DOF,
-                };
-                (dof != NO_DOF).then_some(dof)
+                let axis = component.checked_sub(3);
+                let has_inertia = axis.is_none_or(|axis| about[axis] > 0.0);
+                let dof = self.layout.carrier_motion(carrier, component);
+                (has_inertia && dof != NO_DOF).then_some(dof)
             })
         };
         self.heavy.iter().flat_map(of_body)
@@ -264,10 +260,7 @@ impl Context<'_> {
             let values = force.to_array().into_iter().chain(moment.to_array());
             for (component, _) in values.enumerate().filter(|(_, value)| *value != 0.0) {
                 self.may_move(step, carrier, component)?;
-                dofs.push(match component {
-                    0..3 => layout.translation(carrier, component),
-                    _ => layout.rotation(carrier, component - 3),
-                });
+                dofs.push(layout.carrier_motion(carrier, component));
             }
         }
         dofs.retain(|&dof| dof != NO_DOF);

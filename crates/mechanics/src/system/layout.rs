@@ -390,6 +390,21 @@ impl Layout {
         self.slots[FieldId::ROTATION.index()].dof(body, axis)
     }
 
+    /// A motion of a carrier: of 0 to 2 a translation along an axis, from 3 on a rotation about one.
+    #[must_use]
+    pub const fn carrier_motion(&self, carrier: RigidId, component: usize) -> Dof {
+        match component {
+            0..3 => self.translation(carrier, component),
+            _ => self.rotation(carrier, component - 3),
+        }
+    }
+
+    /// All six motions of a carrier.
+    #[must_use]
+    pub fn of_carrier(&self, carrier: RigidId) -> [Dof; 6] {
+        std::array::from_fn(|component| self.carrier_motion(carrier, component))
+    }
+
     /// A multiplier.
     #[must_use]
     pub const fn multiplier(&self, number: usize) -> Dof {
