@@ -15,7 +15,7 @@ use super::natural::{NaturalMode, Vibrations};
 use super::newton::{Failure, Newton};
 use super::step::{Step, Vibration};
 use super::stepping::{Outcome, RunError, Stepper};
-use crate::system::{Assembly, Dof, DofName, FieldId, Increment, Phase, State, System};
+use crate::system::{Assembly, Dof, DofName, FieldId, Increment, Phase, Role, State, System, Term};
 use signorini_linear::{LinearError, Mode, Modes, Wanted, lowest_modes};
 use std::f64::consts::TAU;
 
@@ -107,8 +107,11 @@ impl Newton {
         let mut mass = Assembly::default();
         let (assembler, stiffness) = (&mut self.assembler, &mut self.assembly);
         let trial = &self.trial;
-        assembler.assemble_stiffness(layout, elimination, terms, trial, stiffness)?;
-        assembler.assemble_inertia(layout, elimination, terms, trial, &mut mass)?;
+        let has_mass = |term: &dyn Term| term.properties().role == Role::Inertia;
+        let is_viscous = |term: &dyn Term| term.capabilities().viscous.is_some();
+        let is_elastic = |term: &dyn Term| !has_mass(term) && !is_viscous(term);
+        assembler.assemble_of(layout, elimination, terms, trial, is_elastic, stiffness)?;
+        assembler.assemble_of(layout, elimination, terms, trial, has_mass, &mut mass)?;
         let asymmetry = assembler.symmetrize(stiffness);
         let of_axis = |axis: usize| {
             let moved = direction(system, axis);

@@ -510,47 +510,25 @@ impl Assembler {
         self.assemble_by(layout, elimination, terms, state, evaluate, out)
     }
 
-    /// The stiffness at an accepted state, without inertia and viscous forces.
+    /// The stiffness at a state of those terms that `takes` answers yes to; of inertia where no increment has begun, that is the mass.
     ///
     /// # Errors
     /// As [`Assembler::assemble`].
-    pub fn assemble_stiffness(
+    pub fn assemble_of(
         &mut self,
         layout: &Layout,
         elimination: &Elimination,
         terms: &[Box<dyn Term>],
         state: &State,
+        takes: impl Fn(&dyn Term) -> bool + Sync,
         out: &mut Assembly,
     ) -> Result<(), TermError> {
         let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
-            let term = &terms[task.term];
-            let is_viscous = term.capabilities().viscous.is_some();
-            if is_viscous || term.properties().role == Role::Inertia {
+            let term = terms[task.term].as_ref();
+            if !takes(term) {
                 return Ok(());
             }
             term.evaluate(task.chunk, state, Order::Tangent, work, buffer)
-        };
-        self.assemble_by(layout, elimination, terms, state, evaluate, out)
-    }
-
-    /// The mass in the place of the stiffness, where no increment has begun.
-    ///
-    /// # Errors
-    /// As [`Assembler::assemble`].
-    pub fn assemble_inertia(
-        &mut self,
-        layout: &Layout,
-        elimination: &Elimination,
-        terms: &[Box<dyn Term>],
-        state: &State,
-        out: &mut Assembly,
-    ) -> Result<(), TermError> {
-        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
-            let term = &terms[task.term];
-            match term.properties().role {
-                Role::Inertia => term.evaluate(task.chunk, state, Order::Tangent, work, buffer),
-                _ => Ok(()),
-            }
         };
         self.assemble_by(layout, elimination, terms, state, evaluate, out)
     }
