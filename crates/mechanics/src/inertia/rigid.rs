@@ -17,9 +17,11 @@ pub struct RigidInertia {
     step: Option<Scheme>,
     /// The length of the increment; 0 where none has begun.
     h: f64,
-    /// The state at the start of the increment.
-    from: Option<State>,
-    /// Rates there, of each body.
+    /// Whether motions are small.
+    is_small: bool,
+    /// At the start of the increment, of each body: where its carrier is, and how it has turned.
+    starts: Vec<(Vec3, Mat3)>,
+    /// Rates there.
     rates: Vec<BodyRates>,
     /// Kinetic energy at the start of the run.
     at_start: f64,
@@ -40,7 +42,8 @@ impl RigidInertia {
             layout,
             step: None,
             h: 0.0,
-            from: None,
+            is_small: true,
+            starts: Vec::new(),
             rates: vec![BodyRates::default(); bodies.len()],
             at_start: energies.map(|(body, rates)| body.kinetic(rates)).sum(),
             bodies,
@@ -48,17 +51,13 @@ impl RigidInertia {
     }
 
     fn dofs(&self, body: &RigidMass) -> [Dof; 6] {
-        std::array::from_fn(|k| match k {
-            0..3 => self.layout.translation(body.carrier, k),
-            _ => self.layout.rotation(body.carrier, k - 3),
-        })
+        self.layout.of_carrier(body.carrier)
     }
 
     /// Whether all stiffness is symmetric: where motions are small, and in the plane about the centroid.
     fn is_symmetric(&self) -> bool {
-        let is_small = self.from.as_ref().is_none_or(|from| from.is_small);
         let is_central = || self.bodies.iter().all(|body| body.arm == Vec3::ZERO);
-        is_small || self.layout.ndim() < 3 && is_central()
+        self.is_small || self.layout.ndim() < 3 && is_central()
     }
 
     /// The rounding errors of force and moment: those of positions and angles, times what a way makes of them.
@@ -67,13 +66,11 @@ impl RigidInertia {
         body: &RigidMass,
         rates: &BodyRates,
         scheme: &Scheme,
-        from: &State,
+        place: Vec3,
     ) -> [f64; 2] {
         let h = self.h;
         let slope = (1.0 - scheme.alpha_m) / (scheme.beta * h * h);
-        let pose = from.poses.get(body.carrier as usize);
-        let place = pose.map_or(0.0, |pose| pose.origin.max_abs());
-        let far = place + body.arm.norm() + h * rates.velocity.norm();
+        let far = place.max_abs() + body.arm.norm() + h * rates.velocity.norm();
         let force = f64::EPSILON * body.mass * slope * far;
         let inertia = body.inertia.trace().abs();
         let angle = 1.0 + h * rates.spin.norm();
@@ -109,12 +106,13 @@ impl RigidInertia {
         body: &RigidMass,
         rates: &BodyRates,
         scheme: &Scheme,
-        [from, trial]: [&State; 2],
+        start: Mat3,
+        trial: &State,
     ) -> Wrench {
         let h = self.h;
         let turns = trial.between.as_ref().map(|between| &between.turn);
         let moved = turns.and_then(|turns| turns.get(body.carrier as usize).copied());
-        let way = body.way(from, moved.unwrap_or_default());
+        let way = body.way(start, self.is_small, moved.unwrap_or_default());
         let (left, right) = (1.0 - scheme.alpha_f, scheme.alpha_f);
         let [first, last] = way.arms;
         let arm = last * left + first * right;
@@ -129,7 +127,7 @@ impl RigidInertia {
         let inertia = body.inertia.to_mat3();
         let mut torque = inertia * mean(end.spin_rate, rates.spin_rate);
         let mut stiffness = inertia * slope;
-        if !from.is_small {
+        if !self.is_small {
             let gyroscopic = |spin: Vec3| spin.cross(inertia * spin);
             torque = torque + gyroscopic(end.spin) * left + gyroscopic(rates.spin) * right;
             let spin = Mat3::skew(end.spin) * inertia - Mat3::skew(inertia * end.spin);
@@ -142,7 +140,7 @@ impl RigidInertia {
             stiffness = rotation * (stiffness * tangent - Mat3::skew(torque) * share) * back;
             torque = rotation * torque;
         }
-        let turning = if from.is_small {
+        let turning = if self.is_small {
             Mat3::ZERO
         } else {
             Mat3::skew(force) * lever_end * left
@@ -211,10 +209,13 @@ impl Term for RigidInertia {
     fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
         self.step = phase.step.scheme;
         self.h = phase.dt();
-        self.from = Some(State {
-            rates: None,
-            ..from.clone()
-        });
+        self.is_small = from.is_small;
+        self.starts.clear();
+        self.starts.extend(self.bodies.iter().map(|body| {
+            let pose = from.poses.get(body.carrier as usize);
+            let place = pose.map_or(Vec3::ZERO, |pose| pose.origin);
+            (place, body.rotation(from))
+        }));
         match from.rates.as_ref().filter(|_| self.step.is_some()) {
             Some(rates) => self.rates.clone_from(&rates.bodies),
             None => self.rates.fill(BodyRates::default()),
@@ -237,11 +238,11 @@ impl Term for RigidInertia {
         _: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
-        let all = self.bodies.iter().zip(&self.rates);
-        for (body, rates) in all.skip(chunk * CHUNK).take(CHUNK) {
-            let begun = self.step.as_ref().filter(|_| self.h > 0.0);
-            let wrench = match begun.zip(self.from.as_ref()) {
-                Some((scheme, from)) => self.between(body, rates, scheme, [from, trial]),
+        let begun = self.step.as_ref().filter(|_| self.h > 0.0);
+        let all = self.bodies.iter().zip(&self.rates).zip(&self.starts);
+        for ((body, rates), &(place, start)) in all.skip(chunk * CHUNK).take(CHUNK) {
+            let wrench = match begun {
+                Some(scheme) => self.between(body, rates, scheme, start, trial),
                 None => self.at_rest(body, rates, trial),
             };
             let force: [f64; 6] = std::array::from_fn(|k| wrench.parts[k / 3][k % 3]);
@@ -253,8 +254,8 @@ impl Term for RigidInertia {
                 }
             }
             let dofs = self.dofs(body);
-            if let (Some(scheme), Some(from)) = (begun, self.from.as_ref()) {
-                let [along, about] = self.rounding(body, rates, scheme, from);
+            if let Some(scheme) = begun {
+                let [along, about] = self.rounding(body, rates, scheme, place);
                 out.uncertain(&dofs[..3], along);
                 out.uncertain(&dofs[3..], about);
             }

@@ -2,7 +2,7 @@ use super::RigidInertia;
 use super::tests::{Sum, begin, noise};
 use crate::system::{
     BodyRates, Elimination, Layout, Order, Phase, Rates, RigidBody, RigidMass, Scheme, State,
-    StepContext, Term, Work, moved,
+    StepContext, Term, Work,
 };
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
@@ -174,7 +174,7 @@ fn the_way_of_a_body_is_what_its_poses_say() {
     let du: Vec<f64> = (0..layout.ndof()).map(|k| noise(60 + k)).collect();
     let mut to = from.clone();
     to.advance_from(&from, &du, 1.0, &layout, &[Vec3::ZERO], &elimination);
-    let way = body.way(&from, moved(&layout, [&from, &to], 0));
+    let way = body.way_between(&layout, [&from, &to]);
     let centroid = |state: &State| state.poses[0].origin + state.poses[0].rotation * body.arm;
     assert!((way.centroid - (centroid(&to) - centroid(&from))).norm() < 1e-13);
     let end = way.start * Mat3::rotation(way.turn);

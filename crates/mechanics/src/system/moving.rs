@@ -1,6 +1,6 @@
 //! How a system moves in time: the rates of its nodes and rigid bodies.
 
-use super::{Dof, Layout, Rates, Scheme, State, System, moved};
+use super::{Dof, Layout, Rates, Scheme, State, System};
 use signorini_geometry::tensor::Vec3;
 
 /// The largest motion of an unknown in the small time of [`System::nodal_rates`].
@@ -61,7 +61,7 @@ impl System {
         let h = to.time - from.time;
         rates.advance(scheme, h, [&from.x, &to.x], self.massless());
         for (body, rates) in self.heavy.iter().zip(&mut rates.bodies) {
-            let way = body.way(from, moved(&self.layout, [from, to], body.carrier));
+            let way = body.way_between(&self.layout, [from, to]);
             *rates = rates.advanced(scheme, h, &way);
         }
     }
@@ -99,7 +99,7 @@ impl System {
             }
         }
         for (body, rates) in self.heavy.iter().zip(&rates.bodies) {
-            let way = body.way(from, moved(&self.layout, [from, to], body.carrier));
+            let way = body.way_between(&self.layout, [from, to]);
             sum += change(way.centroid, rates.velocity, rates.acceleration);
             count += 1;
         }

@@ -60,18 +60,18 @@ impl RigidMass {
         self.inertia + Sym3::diagonal(square, square, square) - along
     }
 
-    /// Its way from an accepted state with this translation and rotation vector of its carrier, see [`moved`].
+    /// Its way from where it has turned by `start`, [`RigidMass::rotation`], with this translation and rotation vector of its carrier, see
+    /// [`moved`].
     #[must_use]
-    pub fn way(&self, from: &State, [translation, turn]: [Vec3; 2]) -> BodyWay {
-        if from.is_small {
+    pub fn way(&self, start: Mat3, is_small: bool, [translation, turn]: [Vec3; 2]) -> BodyWay {
+        if is_small {
             return BodyWay {
                 centroid: translation + turn.cross(self.arm),
                 turn,
                 arms: [self.arm; 2],
-                start: Mat3::IDENTITY,
+                start,
             };
         }
-        let start = self.rotation(from);
         let arm = start * self.arm;
         let arms = [arm, Mat3::rotation(turn) * arm];
         BodyWay {
@@ -80,6 +80,13 @@ impl RigidMass {
             arms,
             start,
         }
+    }
+
+    /// The same from one state to another.
+    #[must_use]
+    pub fn way_between(&self, layout: &Layout, [from, to]: [&State; 2]) -> BodyWay {
+        let moved = moved(layout, [from, to], self.carrier);
+        self.way(self.rotation(from), from.is_small, moved)
     }
 
     /// R at a state; 1 where motions are small.
