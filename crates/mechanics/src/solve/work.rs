@@ -42,9 +42,13 @@ impl ExternalWork {
         let mut loads = Loads(vec![0.0; ndof]);
         let mut counted = Loads(vec![0.0; ndof]);
         let mut work = Work::default();
-        let terms = system.terms.iter();
+        let loading = || {
+            let terms = system.terms.iter();
+            terms.filter(|term| term.properties().role == Role::Load)
+        };
         // what has a potential does the work of that, under the loads in force between the ends
-        let ends = between.map(|middle| {
+        let is_loaded = loading().next().is_some();
+        let ends = between.filter(|_| is_loaded).map(|middle| {
             [from, to].map(|end| State {
                 time: middle.time,
                 rates: None,
@@ -52,7 +56,7 @@ impl ExternalWork {
             })
         });
         let mut done = 0.0;
-        for term in terms.filter(|term| term.properties().role == Role::Load) {
+        for term in loading() {
             let potentials = match &ends {
                 Some([from, to]) => potential(term.as_ref(), from, &mut work)?.zip(potential(
                     term.as_ref(),
