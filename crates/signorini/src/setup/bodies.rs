@@ -77,9 +77,8 @@ pub(super) fn left_out(
     })
 }
 
-/// The material that a body names.
-pub(super) fn material<'a>(case: &'a Case, body: &Body) -> Option<&'a case::Material> {
-    let name = body.material.as_ref()?;
+/// The material of this name.
+fn material<'a>(case: &'a Case, name: &case::Name) -> Option<&'a case::Material> {
     let mut all = case.materials.iter();
     all.find(|one| one.name.value == name.value)
 }
@@ -134,16 +133,18 @@ fn body_part(
         cells.append(names.cells(group, found));
     }
     let name = name(body);
+    let named = body.material.as_ref();
+    let of_body = named.and_then(|name| material(case, name));
     if body.rigid {
         let first = body.groups.first()?;
         let kind = BodyKind::Rigid {
             carrier: carriers.get(first)?,
-            density: material(case, body).and_then(|part| rigid_density(body, part, found)),
+            density: of_body.and_then(|part| rigid_density(body, part, found)),
         };
         let cells = cells.all();
         return Some(BodyPart { name, cells, kind });
     }
-    let part = material(case, body)?;
+    let part = of_body?;
     let density = part.density.as_ref().map(|density| density.value);
     let mass = MassPart {
         matrix: match body.mass_matrix {
@@ -292,8 +293,7 @@ fn later(
                         .help("make a [[body]] of this group alone"),
                 );
             }
-            let mut materials = case.materials.iter();
-            let part = materials.find(|one| one.name.value == change.material.value);
+            let part = material(case, &change.material);
             let material = part.and_then(|part| law(part, own, found));
             let material = material.map(|inner| oriented(inner, body));
             later.extend(material.map(|material| (number, material)));
