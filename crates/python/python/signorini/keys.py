@@ -615,7 +615,7 @@ class InitialVelocity(Table):
         "Angular velocity (radian/time); a number in the plane",
         "number or list of number",
     )
-    on: Key[str | None, str] = Key("The set or group", "text")
+    on: Key[str | None, str] = Key("The set, group, reference or rigid body", "text")
     v: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
         "Velocity; of the point `about`, where there is an `omega`",
         "list of number",

@@ -211,7 +211,7 @@ static INITIAL_VELOCITY: Table = Table {
     heading: "[[initial.velocity]]",
     doc: "velocities at the start of the first step, if it is dynamic; of several that name a node the last holds",
     keys: &[
-        key("on", Shape::Text, "the set or group")
+        key("on", Shape::Text, "the set, group, reference or rigid body")
             .required()
             .hints(&["set", "group"]),
         key(
