@@ -281,14 +281,14 @@ pub(super) fn orientation(one: &NamedOrientation) -> Entries {
 
 pub(super) fn body(body: &Body) -> Entries {
     let mut entries = vec![("group", names(&body.groups))];
+    let material = body.material.as_ref();
+    entries.extend(material.map(|name| ("material", (&name.value).into())));
     if body.rigid {
         entries.push(("rigid", true.into()));
         let reference = body.reference.as_ref();
         entries.extend(reference.map(|name| ("reference", (&name.value).into())));
         return entries;
     }
-    let material = body.material.as_ref();
-    entries.extend(material.map(|name| ("material", (&name.value).into())));
     let integration = match body.integration {
         Integration::Full => "full",
         Integration::Reduced => "reduced",
