@@ -1,8 +1,8 @@
 //! From rows to force and stiffness: (E1) to (E6) of the room. It never asks what the segment is.
 
 use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
-use super::law::{ContactLaw, Eval, Multiplier, Scale};
-use super::row::Row;
+use super::law::{ContactLaw, Eval, Multiplier, Scale, secant};
+use super::row::{Row, SeenGap};
 use pulp::Arch;
 use signorini_geometry::tensor::Vec3;
 
@@ -32,7 +32,7 @@ pub(super) struct Laws<'a> {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
     /// The gap and the multiplier along the normal that they were asked with.
-    pub at: [f64; 2],
+    pub at: (SeenGap, f64),
     pub pressure: Eval,
     /// The limit of friction, and what it was asked with.
     pub limit: Option<(Sliding, Limit)>,
@@ -40,8 +40,14 @@ pub(super) struct Answer {
 
 impl Answer {
     /// The pressure, where it is that of these numbers to the last bit.
-    fn pressure_at(&self, gap: f64, lambda: f64) -> Option<Eval> {
-        let is_same = self.at.map(f64::to_bits) == [gap, lambda].map(f64::to_bits);
+    fn pressure_at(&self, gap: SeenGap, lambda: f64) -> Option<Eval> {
+        let bits = |(gap, lambda): (SeenGap, f64)| {
+            (
+                [gap.now, lambda].map(f64::to_bits),
+                gap.from.map(f64::to_bits),
+            )
+        };
+        let is_same = bits(self.at) == bits((gap, lambda));
         is_same.then_some(self.pressure)
     }
 
@@ -192,20 +198,27 @@ impl<'a> Laws<'a> {
     }
 
     /// The pressure of a gap alone.
-    pub fn pressure(&self, gap: f64, normal: Vec3, lambda: &Lambda) -> Eval {
+    pub fn pressure(&self, gap: SeenGap, normal: Vec3, lambda: &Lambda) -> Eval {
         self.pressed(gap, self.scalar(normal, lambda))
     }
 
     /// The pressure of a gap and a multiplier along the normal.
-    fn pressed(&self, gap: f64, scalar: f64) -> Eval {
+    fn pressed(&self, gap: SeenGap, scalar: f64) -> Eval {
         let known = self.answer.and_then(|a| a.pressure_at(gap, scalar));
-        known.unwrap_or_else(|| self.law.pressure(gap, scalar, self.scale))
+        let at_end = || self.law.pressure(gap.now, scalar, self.scale);
+        known.or_else(|| self.secant(gap)).unwrap_or_else(at_end)
+    }
+
+    /// The pressure that does the work of the law's energy since the increment began.
+    pub fn secant(&self, gap: SeenGap) -> Option<Eval> {
+        let from = gap.from?;
+        secant(self.law, [from, gap.now], self.scale)
     }
 
     /// The pressure that friction is limited by.
-    pub fn tried(&self, gap: f64, scalar: f64) -> Eval {
+    pub fn tried(&self, gap: SeenGap, scalar: f64) -> Eval {
         if self.law.multiplier().is_unknown() {
-            self.law.trial(gap, scalar, self.scale)
+            self.law.trial(gap.now, scalar, self.scale)
         } else {
             self.pressed(gap, scalar)
         }
@@ -232,7 +245,7 @@ impl<'a> Laws<'a> {
     }
 
     /// Whether anything acts at this gap.
-    pub fn acts(&self, gap: f64, normal: Vec3, lambda: &Lambda) -> bool {
+    pub fn acts(&self, gap: SeenGap, normal: Vec3, lambda: &Lambda) -> bool {
         self.pressure(gap, normal, lambda) != Eval::default()
     }
 
@@ -268,7 +281,7 @@ impl<'a> Laws<'a> {
     /// The limit of friction at a row's pressure.
     pub fn limit(&self, row: &Row, lambda: &Lambda, path: f64) -> f64 {
         let scalar = self.scalar(row.normal, lambda);
-        let pressure = self.tried(row.gap, scalar);
+        let pressure = self.tried(row.seen(), scalar);
         let past = Past {
             path,
             ..Past::default()
@@ -307,13 +320,13 @@ impl<'a> Laws<'a> {
             return self.bonded(row, lambda);
         }
         let scalar = self.scalar(row.normal, lambda);
-        let pressure = self.tried(row.gap, scalar);
+        let pressure = self.tried(row.seen(), scalar);
         if pressure == Eval::default() {
             return Traction::default();
         }
         let Some(friction) = self.friction() else {
             return Traction {
-                pressure: self.pressed(row.gap, scalar).value,
+                pressure: self.pressed(row.seen(), scalar).value,
                 state: Contact::Slip,
                 ..Traction::default()
             };
@@ -450,7 +463,7 @@ impl<'a> Laws<'a> {
     fn press(&self, row: &Row, measure: f64, lambda: f64, target: &mut Target<'_>) {
         let n = row.weights.len();
         let width = target.force.len();
-        let pressure = self.pressed(row.gap, lambda);
+        let pressure = self.pressed(row.seen(), lambda);
         let scaled = measure * pressure.value;
         for (f, b) in target.force.iter_mut().zip(&row.weights) {
             *f -= scaled * b; // (E1)
@@ -503,7 +516,7 @@ impl<'a> Laws<'a> {
         let wants_tangent = !target.stiffness.is_empty();
         let (nu, sliding) = (row.normal, &row.sliding);
         let along = nu.dot(lambda.vector);
-        let pressure = self.tried(row.gap, -along);
+        let pressure = self.tried(row.seen(), -along);
         let open = pressure == Eval::default();
 
         work.reset(width);

@@ -46,6 +46,8 @@ pub struct Row {
     pub number: usize,
     /// Gap, negative in penetration.
     pub gap: f64,
+    /// The gap where the increment began, of a row whose pressure is a secant.
+    pub from: Option<f64>,
     /// Unit normal out of the primary side.
     pub normal: Vec3,
     /// The part of its measure that it acts on.
@@ -60,7 +62,25 @@ pub struct Row {
     pub sliding: Sliding,
 }
 
+/// The gap that a law sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SeenGap {
+    /// Where it is asked for.
+    pub now: f64,
+    /// Where the increment began, if the pressure is the secant of the law's energy between both.
+    pub from: Option<f64>,
+}
+
 impl Row {
+    /// What the law sees.
+    #[must_use]
+    pub const fn seen(&self) -> SeenGap {
+        SeenGap {
+            now: self.gap,
+            from: self.from,
+        }
+    }
+
     /// The part of a vector within the tangent plane.
     #[must_use]
     pub fn within(&self, v: Vec3) -> Vec3 {
@@ -225,6 +245,7 @@ impl Rows {
         self.nrow += 1;
         row.number = number;
         row.gap = 0.0;
+        row.from = None;
         row.normal = Vec3::ZERO;
         row.coverage = 1.0;
         row.sliding.free = false;

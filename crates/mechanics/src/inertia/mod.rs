@@ -21,6 +21,12 @@
 //! dΨ = T⁻¹(Ψ) R₁ᵀ dθ    T⁻¹(Ψ) = 1 + ½ [Ψ]× + (1/ψ² − cot(ψ/2)/(2ψ)) [Ψ]×²                          (E6)
 //! ```
 //!
+//! or, of a method that conserves energy, with the rotations `R₀`, `R₁` at the ends and Cayley's vector, (E10) of `rigid_motion`,
+//!
+//! ```text
+//! M = a_α × f + (R₁ J Ω₁ − R₀ J Ω₀)/h        dΘ = (1 + ½ [Θ]× + ¼ Θ Θᵀ) R₁ᵀ dθ                   (E7)
+//! ```
+//!
 //! with `v₁`, `a₁` as functions of `Δd`, (E5) of `system`. Where a step begins, the term has no force and the stiffness `M`: the
 //! accelerations there follow from it ([`Role::Inertia`]). In static steps it takes no part.
 //!

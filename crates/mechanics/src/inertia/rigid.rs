@@ -1,7 +1,7 @@
 //! The inertia of rigid bodies.
 
 use crate::system::{
-    BodyRates, Dof, Frame, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties,
+    BodyRates, BodyWay, Dof, Frame, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties,
     RigidMass, Role, Scheme, Sink, State, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -112,7 +112,7 @@ impl RigidInertia {
         let h = self.h;
         let turns = trial.between.as_ref().map(|between| &between.turn);
         let moved = turns.and_then(|turns| turns.get(body.carrier as usize).copied());
-        let way = body.way(start, self.is_small, moved.unwrap_or_default());
+        let way = body.way(scheme, start, self.is_small, moved.unwrap_or_default());
         let (left, right) = (1.0 - scheme.alpha_f, scheme.alpha_f);
         let [first, last] = way.arms;
         let arm = last * left + first * right;
@@ -124,22 +124,15 @@ impl RigidInertia {
         let weight = body.mass * slope;
         let (lever, lever_end) = (Mat3::skew(arm), Mat3::skew(last));
 
-        let inertia = body.inertia.to_mat3();
-        let mut torque = inertia * mean(end.spin_rate, rates.spin_rate);
-        let mut stiffness = inertia * slope;
-        if !self.is_small {
-            let gyroscopic = |spin: Vec3| spin.cross(inertia * spin);
-            torque = torque + gyroscopic(end.spin) * left + gyroscopic(rates.spin) * right;
-            let spin = Mat3::skew(end.spin) * inertia - Mat3::skew(inertia * end.spin);
-            stiffness = stiffness + spin * (left * scheme.gamma / (scheme.beta * h));
-            // dΨ for a rotation of the end in its own axes, and what that does to the rotation between
-            let tangent = inverse_tangent(way.turn);
-            let share = self::tangent(way.turn * left) * tangent * left;
-            let rotation = way.start * Mat3::rotation(way.turn * left);
-            let back = (way.start * Mat3::rotation(way.turn)).transpose();
-            stiffness = rotation * (stiffness * tangent - Mat3::skew(torque) * share) * back;
-            torque = rotation * torque;
-        }
+        let (torque, stiffness) = if self.is_small {
+            let inertia = body.inertia.to_mat3();
+            let torque = inertia * mean(end.spin_rate, rates.spin_rate);
+            (torque, inertia * slope)
+        } else if scheme.conserves {
+            self.conserving_torque(body, [rates, &end], &way)
+        } else {
+            self.torque(body, [rates, &end], scheme, &way)
+        };
         let turning = if self.is_small {
             Mat3::ZERO
         } else {
@@ -156,6 +149,66 @@ impl RigidInertia {
             ],
         }
     }
+}
+
+impl RigidInertia {
+    /// What turns a body about its centroid (E5), with the derivative (E6) against the end of the increment.
+    fn torque(
+        &self,
+        body: &RigidMass,
+        [rates, end]: [&BodyRates; 2],
+        scheme: &Scheme,
+        way: &BodyWay,
+    ) -> (Vec3, Mat3) {
+        let Scheme {
+            alpha_m,
+            alpha_f,
+            beta,
+            gamma,
+            ..
+        } = *scheme;
+        let (h, left) = (self.h, 1.0 - alpha_f);
+        let inertia = body.inertia.to_mat3();
+        let gyroscopic = |spin: Vec3| spin.cross(inertia * spin);
+        let mean = end.spin_rate * (1.0 - alpha_m) + rates.spin_rate * alpha_m;
+        let turning = gyroscopic(end.spin) * left + gyroscopic(rates.spin) * alpha_f;
+        let torque = inertia * mean + turning;
+        let spin = Mat3::skew(end.spin) * inertia - Mat3::skew(inertia * end.spin);
+        let slope = (1.0 - alpha_m) / (beta * h * h);
+        let stiffness = inertia * slope + spin * (left * gamma / (beta * h));
+        // dΨ for a rotation of the end in its own axes, and what that does to the rotation between
+        let tangent = inverse_tangent(way.turn);
+        let share = self::tangent(way.turn * left) * tangent * left;
+        let rotation = way.start * Mat3::rotation(way.turn * left);
+        let back = (way.start * way.rotation).transpose();
+        let stiffness = rotation * (stiffness * tangent - Mat3::skew(torque) * share) * back;
+        (rotation * torque, stiffness)
+    }
+
+    /// The same of a method that conserves energy (E7), with its derivative.
+    fn conserving_torque(
+        &self,
+        body: &RigidMass,
+        [rates, end]: [&BodyRates; 2],
+        way: &BodyWay,
+    ) -> (Vec3, Mat3) {
+        let inertia = body.inertia.to_mat3();
+        let rotation = way.start * way.rotation;
+        let [before, after] = [
+            way.start * (inertia * rates.spin),
+            rotation * (inertia * end.spin),
+        ];
+        let tangent = inverse_cayley(way.turn) * rotation.transpose();
+        let stiffness = rotation * inertia * tangent * (2.0 / self.h) - Mat3::skew(after);
+        let each = self.h.recip();
+        ((after - before) * each, stiffness * each)
+    }
+}
+
+/// dΘ/dδ of Cayley's vector: `cay(Θ + dΘ) = cay(Θ) exp(dδ)`.
+fn inverse_cayley(turn: Vec3) -> Mat3 {
+    let k = Mat3::skew(turn);
+    Mat3::IDENTITY + k * 0.5 + Mat3::outer(turn, turn) * 0.25
 }
 
 /// T(Ψ): `exp(Ψ + dΨ) = exp(Ψ) exp(T dΨ)`.

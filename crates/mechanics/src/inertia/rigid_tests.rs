@@ -4,7 +4,7 @@ use crate::system::{
     BodyRates, Elimination, Layout, Order, Phase, Rates, RigidBody, RigidMass, Scheme, State,
     StepContext, Term, Work,
 };
-use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
+use signorini_geometry::tensor::{Sym3, Vec3};
 use std::sync::Arc;
 
 fn vector(seed: usize) -> Vec3 {
@@ -56,6 +56,7 @@ fn stiffness_is_the_derivative_against_the_end() {
         Scheme::generalized_alpha(0.8),
         Scheme::generalized_alpha(0.0),
         Scheme::hilber_hughes_taylor(-0.2),
+        Scheme::energy_momentum(),
     ];
     for (scheme, is_small) in schemes.into_iter().flat_map(|s| [(s, false), (s, true)]) {
         let (layout, elimination, mut inertia, from) = scene(is_small);
@@ -73,7 +74,7 @@ fn stiffness_is_the_derivative_against_the_end() {
                 to.advance_from(&base, &du, 1.0, &layout, &reference, &elimination);
             }
             let mut trial = from.clone();
-            trial.set_between(scheme.alpha_f, &layout, [&from, &to]);
+            trial.set_between(&scheme, &layout, [&from, &to]);
             trial
         };
         let here = evaluate(&inertia, &layout, &end(None));
@@ -116,7 +117,7 @@ fn forces_are_the_rates_of_momentum() {
         let mut to = from.clone();
         to.advance_from(&from, &du, 1.0, &layout, &reference, &elimination);
         let mut trial = from.clone();
-        trial.set_between(scheme.alpha_f, &layout, [&from, &to]);
+        trial.set_between(&scheme, &layout, [&from, &to]);
         let got = evaluate(&inertia, &layout, &trial).force;
         let force = rates.acceleration * body.mass;
         let j = body.inertia.to_mat3();
@@ -174,10 +175,38 @@ fn the_way_of_a_body_is_what_its_poses_say() {
     let du: Vec<f64> = (0..layout.ndof()).map(|k| noise(60 + k)).collect();
     let mut to = from.clone();
     to.advance_from(&from, &du, 1.0, &layout, &[Vec3::ZERO], &elimination);
-    let way = body.way_between(&layout, [&from, &to]);
     let centroid = |state: &State| state.poses[0].origin + state.poses[0].rotation * body.arm;
-    assert!((way.centroid - (centroid(&to) - centroid(&from))).norm() < 1e-13);
-    let end = way.start * Mat3::rotation(way.turn);
-    let off = (end - to.poses[0].rotation).rows;
-    assert!(off.iter().all(|row| row.norm() < 1e-13));
+    for scheme in [Scheme::generalized_alpha(0.8), Scheme::energy_momentum()] {
+        let way = body.way_between(&scheme, &layout, [&from, &to]);
+        assert!((way.centroid - (centroid(&to) - centroid(&from))).norm() < 1e-13);
+        let off = (way.start * way.rotation - to.poses[0].rotation).rows;
+        assert!(off.iter().all(|row| row.norm() < 1e-13));
+    }
+}
+
+/// The moment of a method that conserves energy does the work that kinetic energy grows by, and is the change of angular
+/// momentum over the time.
+#[test]
+fn conserving_moments_do_the_work_of_kinetic_energy() {
+    let (layout, elimination, mut inertia, from) = scene(false);
+    let (body, scheme, h) = (inertia.bodies[0], Scheme::energy_momentum(), 0.4);
+    begin(&mut inertia, scheme, h, &from);
+    let du: Vec<f64> = (0..layout.ndof()).map(|k| noise(60 + k)).collect();
+    let mut to = from.clone();
+    to.advance_from(&from, &du, 1.0, &layout, &[Vec3::ZERO], &elimination);
+    let mut trial = from.clone();
+    trial.set_between(&scheme, &layout, [&from, &to]);
+    let force = evaluate(&inertia, &layout, &trial).force;
+    let [along, about] = trial.between.as_ref().unwrap().turn[0];
+    let axes = 0..3;
+    let work = axes.map(|axis| {
+        force[layout.translation(0, axis) as usize] * along[axis]
+            + force[layout.rotation(0, axis) as usize] * about[axis]
+    });
+    let work: f64 = work.sum();
+    let before = from.rates.as_ref().unwrap().bodies[0];
+    let way = body.way_between(&scheme, &layout, [&from, &to]);
+    let after = before.advanced(&scheme, h, &way);
+    let gain = body.kinetic(&after) - body.kinetic(&before);
+    assert!(gain.abs() > 1.0 && (work - gain).abs() < 1e-12 * gain.abs());
 }

@@ -108,7 +108,7 @@ fn between(scheme: &Scheme, layout: &Layout, from: &State, du: &[f64]) -> State 
     let mut to = from.clone();
     to.advance_from(from, du, 1.0, layout, &vectors(5, 50), &nothing);
     let mut trial = from.clone();
-    trial.set_between(scheme.alpha_f, layout, [from, &to]);
+    trial.set_between(scheme, layout, [from, &to]);
     trial
 }
 

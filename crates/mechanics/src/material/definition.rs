@@ -192,6 +192,12 @@ pub trait Material: Send + Sync {
         true
     }
 
+    /// Whether stress and energy depend on the strain alone, whatever the history: its numbers are then for results, or where an
+    /// iteration starts.
+    fn is_elastic(&self) -> bool {
+        self.nhistory() == 0
+    }
+
     /// Whether it is linear, and how far.
     fn linearity(&self) -> Linearity {
         Linearity::None
@@ -235,6 +241,10 @@ impl Material for Arc<dyn Material> {
 
     fn is_symmetric(&self) -> bool {
         (**self).is_symmetric()
+    }
+
+    fn is_elastic(&self) -> bool {
+        (**self).is_elastic()
     }
 
     fn linearity(&self) -> Linearity {

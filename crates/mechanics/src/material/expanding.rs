@@ -129,6 +129,10 @@ impl Material for Expanding {
         self.inner.is_symmetric()
     }
 
+    fn is_elastic(&self) -> bool {
+        self.inner.is_elastic()
+    }
+
     /// At one temperature.
     fn linearity(&self) -> Linearity {
         self.inner.linearity().within()

@@ -116,6 +116,10 @@ impl Material for Oriented {
         self.inner.is_symmetric()
     }
 
+    fn is_elastic(&self) -> bool {
+        self.inner.is_elastic()
+    }
+
     fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
         let Some(frame) = self.frame(strain) else {
             return self.inner.mechanical_strain(strain);

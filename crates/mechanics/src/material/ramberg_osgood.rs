@@ -273,6 +273,11 @@ impl Material for RambergOsgood {
         !self.eulerian
     }
 
+    /// Plastic strains are for results.
+    fn is_elastic(&self) -> bool {
+        true
+    }
+
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
         history.first().copied()
     }

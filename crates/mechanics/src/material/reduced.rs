@@ -388,6 +388,10 @@ impl Material for Reduced {
         self.inner.is_symmetric()
     }
 
+    fn is_elastic(&self) -> bool {
+        self.inner.is_elastic()
+    }
+
     fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
         self.inner.mechanical_strain(strain)
     }

@@ -209,7 +209,9 @@ impl Context<'_> {
         temperature: Option<Arc<NodalField>>,
         steps: &[Step],
     ) -> Result<(Terms, Vec<LockingSummary>), ModelError> {
-        let sizes = &sizes_of_strain(steps);
+        let sizes = &sizes_of_strain(steps.iter());
+        let conserve = |step: &&Step| step.scheme.is_some_and(|scheme| scheme.conserves);
+        let conserving = &sizes_of_strain(steps.iter().filter(conserve));
         let mut terms = Terms::new();
         let mut summaries = Vec::new();
         for body in bodies {
@@ -260,6 +262,9 @@ impl Context<'_> {
                             locking,
                         }));
                     }
+                    for &kinematics in conserving {
+                        solid.conserves_energy(kinematics)?;
+                    }
                     terms.push(Box::new(solid));
                 }
                 BodyKind::Truss {
@@ -281,6 +286,9 @@ impl Context<'_> {
                         temperature,
                     })?;
                     truss.set_activity(self.activity.clone());
+                    for &kinematics in conserving {
+                        truss.conserves_energy(kinematics)?;
+                    }
                     terms.push(Box::new(truss));
                 }
                 BodyKind::Rigid { .. } => {}
@@ -291,11 +299,11 @@ impl Context<'_> {
 }
 
 /// How large strains are in any of the steps.
-fn sizes_of_strain(steps: &[Step]) -> Vec<Kinematics> {
+fn sizes_of_strain<'a>(steps: impl Iterator<Item = &'a Step> + Clone) -> Vec<Kinematics> {
     let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
     sizes.retain(|k| {
         let nonlinear = *k == Kinematics::Finite;
-        steps.iter().any(|s| s.nonlinear == nonlinear)
+        steps.clone().any(|s| s.nonlinear == nonlinear)
     });
     sizes
 }

@@ -2,6 +2,7 @@
 
 use crate::system::{Dof, NodalField, State, StepContext};
 use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
 
 /// Where cells are evaluated.
 #[derive(Clone, Copy)]
@@ -12,11 +13,19 @@ pub(super) enum At<'a> {
     Start,
 }
 
-impl At<'_> {
+impl<'a> At<'a> {
     pub fn displacement(self, dof: Dof) -> f64 {
         match self {
             Self::Trial(state) => state.u[dof as usize],
             Self::Start => 0.0,
+        }
+    }
+
+    /// The way of each node in the increment, where the state is between the ends of one.
+    pub fn way(self) -> Option<&'a [Vec3]> {
+        match self {
+            Self::Trial(state) => state.between.as_ref().map(|of| &of.way[..]),
+            Self::Start => None,
         }
     }
 

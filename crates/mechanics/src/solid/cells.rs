@@ -3,7 +3,9 @@
 use super::axes::{Frames, MaterialAxes, on_axis};
 use super::choice::Situation;
 use super::error::SolidError;
-use super::kernel::{BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel};
+use super::kernel::{
+    BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel, secant_kernel,
+};
 use super::plan::Part;
 use super::{AtNodes, Locking, report};
 use crate::material::{Kinematics, Material};
@@ -38,6 +40,8 @@ pub(super) struct Treatment {
     pub kernel: Kernel,
     /// For several cells at once.
     pub batch: Option<BatchKernel>,
+    /// Where energy is conserved.
+    pub secant: Option<Kernel>,
 }
 
 /// Cells of one element.
@@ -89,6 +93,7 @@ impl Cells {
                 locking,
                 kernel: kernel(element, space, remedy)?,
                 batch: batch_kernel(element, space, remedy),
+                secant: secant_kernel(element, space, remedy),
             })
         };
         let (small, finite) = (

@@ -82,6 +82,18 @@ pub enum SolidError {
         /// Why it cannot be had.
         reason: &'static str,
     },
+    /// An element that no method conserves the energy of.
+    #[error(
+        "no form of the {element} of \"{body}\" {what} conserves energy: write  method = \"generalized-alpha\""
+    )]
+    NotConserving {
+        /// Name of the body.
+        body: String,
+        /// Type of the elements.
+        element: &'static str,
+        /// What is in the way.
+        what: String,
+    },
     /// A point on the axis of a cylindrical system.
     #[error(
         "element {label} of body \"{body}\" has an integration point on the axis of its cylindrical orientation: no direction is radial there"

@@ -50,6 +50,12 @@
 //! and wedge6 have no remedy: their dilatation is constant already, or nearly so, and they stay stiff in bending and lock
 //! where volume is kept; quadratic elements are the way out. What was chosen can be read back, [`Solid::locking`].
 //!
+//! # In motions that conserve energy
+//!
+//! the stress of elastic laws is the secant of the energy over an increment, `kernel::secant` (E21) to (E23), where strains are finite or
+//! the law is not linear; elements with a remedy against locking have no such form there, nor have bars. Laws with a history are
+//! evaluated at the mean place.
+//!
 //! # At the start
 //!
 //! A point may have a stress `S_0` and a strain `E_0` that leaves no stress, [`AtStart`]: `S = S(E − E_0) + S_0`, with
@@ -90,6 +96,7 @@ mod axes;
 mod capabilities;
 mod cells;
 mod choice;
+mod conserving;
 mod error;
 mod kernel;
 mod plan;

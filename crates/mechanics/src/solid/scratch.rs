@@ -11,6 +11,7 @@ use signorini_geometry::tensor::Vec3;
 pub(super) struct Scratch {
     pub x: Vec<Vec3>,
     pub u: Vec<f64>,
+    pub way: Vec<f64>,
     pub profile: Vec<f64>,
     pub temperature: Vec<f64>,
     pub temperature_at_start: Vec<f64>,

@@ -279,9 +279,10 @@ impl Solid {
         };
         let block = &self.blocks[number];
         scratch.size(block, self.layout.ndim(), wanted);
-        let is_symmetric = self.material().is_symmetric();
+        let is_symmetric = self.is_symmetric();
         let batch = block.treatment(self.kinematics).batch;
-        let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric);
+        let one_by_one = wanted == Wanted::Samples || !is_symmetric || at.way().is_some();
+        let batch = batch.filter(|_| !one_by_one);
         let width = if batch.is_some() { width() } else { 1 };
         for begin in (first..last).step_by(width) {
             let cells = begin..last.min(begin + width);
@@ -309,7 +310,7 @@ impl Solid {
 
     /// Hands over the forces and the stiffness of a cell.
     pub(super) fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
-        if self.material().is_symmetric() {
+        if self.is_symmetric() {
             out.add_symmetric(&of.dofs, &of.force, &of.blocks, self.layout.ndim());
         } else {
             out.add(&of.dofs, &of.force, &of.stiffness);
@@ -480,6 +481,7 @@ impl Solid {
             reference: &block.points,
             x: &[],
             u: &[],
+            way: &[],
             material: self.material(),
             kinematics: self.kinematics,
             space: self.space,
@@ -528,9 +530,20 @@ impl Solid {
         scratch.temperature_at_start.clear();
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
         self.heat(block, cell, at, now, at_start);
+        scratch.way.clear();
+        let way = at.way().filter(|_| self.takes_secants());
+        if let Some(way) = way {
+            let ndim = self.layout.ndim();
+            let of_node = |&node: &NodeId| way.get(node as usize).copied().unwrap_or_default();
+            let ways = block.nodes_of(cell).iter().map(of_node);
+            scratch
+                .way
+                .extend(ways.flat_map(|way| way.to_array().into_iter().take(ndim)));
+        }
         let element = Element {
             x: &scratch.x,
             u: &scratch.u,
+            way: &scratch.way,
             profile: &scratch.profile,
             temperature: &scratch.temperature,
             temperature_at_start: &scratch.temperature_at_start,
@@ -544,7 +557,9 @@ impl Solid {
             samples: &mut scratch.samples,
             scratch: &mut scratch.inner,
         };
-        let kernel = block.treatment(self.kinematics).kernel;
+        let treatment = block.treatment(self.kinematics);
+        let secant = treatment.secant.filter(|_| way.is_some());
+        let kernel = secant.unwrap_or(treatment.kernel);
         let outcome = kernel(&element, wanted.order(), &mut out);
         let energy = out.energy;
         let label = block.labels[cell];
@@ -586,7 +601,8 @@ impl Term for Solid {
     fn properties(&self) -> Properties {
         let later = self.later.iter().map(|(_, material)| material);
         let mut all = std::iter::once(&self.material).chain(later);
-        let symmetry = if all.all(|material| material.is_symmetric()) {
+        let is_secant = self.takes_secants();
+        let symmetry = if !is_secant && all.all(|material| material.is_symmetric()) {
             Symmetry::Definite
         } else {
             Symmetry::Unsymmetric
@@ -600,6 +616,7 @@ impl Term for Solid {
         Properties {
             lifetime,
             elements: self.elements_id(),
+            to_end: is_secant,
             ..Properties::new(symmetry, Part::Bulk)
         }
     }
@@ -629,6 +646,12 @@ impl Term for Solid {
         }
         self.step = phase.step;
         self.set_kinematics(kinematics);
+        if self.step.conserves() {
+            self.conserves_energy(kinematics)
+                .map_err(|e| TermError::Refused {
+                    message: e.to_string(),
+                })?;
+        }
         match begins {
             true => self.take_part(from),
             false => Ok(()),

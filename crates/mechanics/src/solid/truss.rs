@@ -32,12 +32,12 @@ const MOST: usize = 9;
 
 /// Bars of one material and cross-section.
 pub struct Truss {
-    name: String,
+    pub(super) name: String,
     layout: Layout,
     reference: Arc<[Vec3]>,
     material: Box<dyn Material>,
     area: f64,
-    small: bool,
+    pub(super) small: bool,
     kinematics: Kinematics,
     temperature: Option<Arc<NodalField>>,
     step: StepContext,
@@ -601,6 +601,12 @@ impl Term for Truss {
             Kinematics::Small
         };
         self.step = phase.step;
+        if self.step.conserves() {
+            let outcome = self.conserves_energy(self.kinematics);
+            outcome.map_err(|e| TermError::Refused {
+                message: e.to_string(),
+            })?;
+        }
         if begins {
             self.set_active();
             self.judge_added(phase.step.number)?;

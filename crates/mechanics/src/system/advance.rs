@@ -1,6 +1,6 @@
 //! How states move: displacements add, rotations compose, dependent nodes follow.
 
-use super::{Elimination, Layout, State, moved};
+use super::{Elimination, Layout, Scheme, State, moved};
 use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -56,7 +56,8 @@ impl State {
 
     /// Becomes the state between an accepted one and the trial at the end of its increment, (E6). Multipliers, and fields
     /// besides displacements, are those of the trial. Allocates nothing when all states belong to the same system.
-    pub fn set_between(&mut self, alpha_f: f64, layout: &Layout, [from, to]: [&Self; 2]) {
+    pub fn set_between(&mut self, scheme: &Scheme, layout: &Layout, [from, to]: [&Self; 2]) {
+        let alpha_f = scheme.alpha_f;
         let mut between = self.between.take().unwrap_or_default();
         between.alpha_f = alpha_f;
         let ways = to.x.iter().zip(&from.x);
@@ -64,7 +65,7 @@ impl State {
         between.way.extend(ways.map(|(to, from)| *to - *from));
         between.turn.clear();
         let carriers = 0..to.poses.len() as u32;
-        let ways = carriers.map(|carrier| moved(layout, [from, to], carrier));
+        let ways = carriers.map(|carrier| moved(scheme, layout, [from, to], carrier));
         between.turn.extend(ways);
         self.time = (1.0 - alpha_f) * to.time + alpha_f * from.time;
         self.is_small = to.is_small;

@@ -15,6 +15,10 @@
 //! Every term is evaluated at `x_α`, and its stiffness is against `x_α`, so that `1 − αf` times that is the one against
 //! `d₁`. What a term needs of the end of the increment comes with the state, [`State::between`](super::State::between).
 //!
+//! With `ρ = 1` a method that conserves energy, [`Scheme::energy_momentum`], is the same scheme, in which forces with a potential are
+//! the secants of that between the ends: (E21) of `solid::kernel::secant`, (E9) of `contact::interface::dynamic_gap`, (E10) of
+//! `rigid_motion`.
+//!
 //! Sources: Chung and Hulbert, J. Appl. Mech. 60, 1993; Hilber, Hughes and Taylor, EESD 5, 1977; Brüls, Cardona and Arnold,
 //! Mech. Mach. Theory 48, 2012 (the time of the acceleration).
 
@@ -34,6 +38,8 @@ pub struct Scheme {
     pub gamma: f64,
     /// Whether nodes of bodies that contact may act on have no mass; that is with the nodes next to them.
     pub redistributed: bool,
+    /// Whether forces that have a potential do the work of that, so that energy and momenta are conserved.
+    pub conserves: bool,
 }
 
 impl Scheme {
@@ -44,6 +50,15 @@ impl Scheme {
             (2.0 * radius - 1.0) / (radius + 1.0),
             radius / (radius + 1.0),
         )
+    }
+
+    /// The method that conserves energy and momenta: that with the spectral radius 1, and secants of potentials.
+    #[must_use]
+    pub fn energy_momentum() -> Self {
+        Self {
+            conserves: true,
+            ..Self::generalized_alpha(1.0)
+        }
     }
 
     /// The method of Hilber, Hughes and Taylor, `α` from −1/3 to 0; Newmark's trapezoidal rule where it is 0.
@@ -60,6 +75,7 @@ impl Scheme {
             beta: 0.25 * sum * sum,
             gamma: sum - 0.5,
             redistributed: false,
+            conserves: false,
         }
     }
 
@@ -152,8 +168,10 @@ pub struct BodyRates {
 pub struct BodyWay {
     /// Δs.
     pub centroid: Vec3,
-    /// Ψ.
+    /// Ψ, or Θ.
     pub turn: Vec3,
+    /// R₀ᵀ R₁; 1 where motions are small.
+    pub rotation: Mat3,
     /// R s₀ at both ends.
     pub arms: [Vec3; 2],
     /// R₀; 1 where motions are small.

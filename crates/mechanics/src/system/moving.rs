@@ -61,7 +61,7 @@ impl System {
         let h = to.time - from.time;
         rates.advance(scheme, h, [&from.x, &to.x], self.massless());
         for (body, rates) in self.heavy.iter().zip(&mut rates.bodies) {
-            let way = body.way_between(&self.layout, [from, to]);
+            let way = body.way_between(scheme, &self.layout, [from, to]);
             *rates = rates.advanced(scheme, h, &way);
         }
     }
@@ -99,7 +99,7 @@ impl System {
             }
         }
         for (body, rates) in self.heavy.iter().zip(&rates.bodies) {
-            let way = body.way_between(&self.layout, [from, to]);
+            let way = body.way_between(scheme, &self.layout, [from, to]);
             sum += change(way.centroid, rates.velocity, rates.acceleration);
             count += 1;
         }

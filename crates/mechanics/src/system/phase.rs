@@ -20,6 +20,14 @@ pub struct StepContext {
     pub vibrates: bool,
 }
 
+impl StepContext {
+    /// Whether forces that have a potential do exactly the work of that.
+    #[must_use]
+    pub fn conserves(&self) -> bool {
+        self.scheme.is_some_and(|scheme| scheme.conserves)
+    }
+}
+
 /// The step before any begins.
 impl Default for StepContext {
     fn default() -> Self {

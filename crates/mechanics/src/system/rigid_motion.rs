@@ -10,9 +10,18 @@
 //!
 //! with the centroid `s`, its arm `s₀` from the reference point `x` at the start. Where motions are small, `R = 1` and `Ψ = Δθ`.
 //!
-//! Source: Brüls and Cardona, J. Comput. Nonlinear Dyn. 5, 2010.
+//! A method that conserves energy has Cayley's vector in the place of `Ψ`, with `Ω₁ + Ω₀ = 2 Θ/h`:
+//!
+//! ```text
+//! R₁ = R₀ cay(Θ)        cay(Θ) = 1 + ([Θ]× + ½ [Θ]×²)/(1 + ¼ Θ·Θ)        Θ = 2 tan(ψ/2) Ψ/ψ       (E10)
+//! (R₁ − R₀) s = R₀ Θ × ½ (R₀ + R₁) s
+//! ```
+//!
+//! so that the way of a point of the body is that of a rotation about its mean place, and moments do exactly the work of forces.
+//!
+//! Sources: Brüls and Cardona, J. Comput. Nonlinear Dyn. 5, 2010; Simo and Wong, Int. J. Numer. Meth. Eng. 31, 1991 (E10).
 
-use super::motion::{BodyRates, BodyWay};
+use super::motion::{BodyRates, BodyWay, Scheme};
 use super::{Layout, State};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -30,8 +39,13 @@ pub struct RigidMass {
     pub inertia: Sym3,
 }
 
-/// How a carrier gets from one state to another: its translation, and the rotation vector between.
-pub fn moved(layout: &Layout, [from, to]: [&State; 2], carrier: RigidId) -> [Vec3; 2] {
+/// How a carrier gets from one state to another: its translation, and the vector of the rotation between, [`Scheme::turn`].
+pub fn moved(
+    scheme: &Scheme,
+    layout: &Layout,
+    [from, to]: [&State; 2],
+    carrier: RigidId,
+) -> [Vec3; 2] {
     let (Some(start), Some(end)) = (
         from.poses.get(carrier as usize),
         to.poses.get(carrier as usize),
@@ -46,9 +60,29 @@ pub fn moved(layout: &Layout, [from, to]: [&State; 2], carrier: RigidId) -> [Vec
         };
         Vec3::new(angle(0), angle(1), angle(2))
     } else {
-        (end.rotation * start.rotation.transpose()).rotation_vector()
+        scheme.turn((end.rotation * start.rotation.transpose()).rotation_vector())
     };
     [end.origin - start.origin, turn]
+}
+
+impl Scheme {
+    /// The vector of a rotation by Ψ, a rotation vector: that, or Cayley's (E10).
+    pub(crate) fn turn(&self, rotation: Vec3) -> Vec3 {
+        let angle = rotation.norm();
+        if !self.conserves || angle == 0.0 {
+            return rotation;
+        }
+        rotation * (2.0 * (0.5 * angle).tan() / angle)
+    }
+
+    /// The inverse of [`Scheme::turn`]: the rotation with this vector.
+    pub(crate) fn rotation(&self, turn: Vec3) -> Mat3 {
+        if !self.conserves {
+            return Mat3::rotation(turn);
+        }
+        let k = Mat3::skew(turn);
+        Mat3::IDENTITY + (k + k * k * 0.5) * (1.0 + 0.25 * turn.norm_squared()).recip()
+    }
 }
 
 impl RigidMass {
@@ -60,23 +94,32 @@ impl RigidMass {
         self.inertia + Sym3::diagonal(square, square, square) - along
     }
 
-    /// Its way from where it has turned by `start`, [`RigidMass::rotation`], with this translation and rotation vector of its carrier, see
-    /// [`moved`].
+    /// Its way from where it has turned by `start`, [`RigidMass::rotation`], with this translation and rotation of its carrier, see
+    /// [`moved`] and [`Scheme::turn`].
     #[must_use]
-    pub fn way(&self, start: Mat3, is_small: bool, [translation, turn]: [Vec3; 2]) -> BodyWay {
+    pub fn way(
+        &self,
+        scheme: &Scheme,
+        start: Mat3,
+        is_small: bool,
+        [translation, turn]: [Vec3; 2],
+    ) -> BodyWay {
         if is_small {
             return BodyWay {
                 centroid: translation + turn.cross(self.arm),
                 turn,
+                rotation: Mat3::IDENTITY,
                 arms: [self.arm; 2],
                 start,
             };
         }
-        let arm = start * self.arm;
-        let arms = [arm, Mat3::rotation(turn) * arm];
+        let turn = start.transpose() * turn;
+        let rotation = scheme.rotation(turn);
+        let arms = [start * self.arm, start * (rotation * self.arm)];
         BodyWay {
             centroid: translation + arms[1] - arms[0],
-            turn: start.transpose() * turn,
+            turn,
+            rotation,
             arms,
             start,
         }
@@ -84,9 +127,14 @@ impl RigidMass {
 
     /// The same from one state to another.
     #[must_use]
-    pub fn way_between(&self, layout: &Layout, [from, to]: [&State; 2]) -> BodyWay {
-        let moved = moved(layout, [from, to], self.carrier);
-        self.way(self.rotation(from), from.is_small, moved)
+    pub fn way_between(
+        &self,
+        scheme: &Scheme,
+        layout: &Layout,
+        [from, to]: [&State; 2],
+    ) -> BodyWay {
+        let moved = moved(scheme, layout, [from, to], self.carrier);
+        self.way(scheme, self.rotation(from), from.is_small, moved)
     }
 
     /// R at a state; 1 where motions are small.

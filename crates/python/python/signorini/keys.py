@@ -1521,9 +1521,9 @@ class Dynamics(Table):
         "number ≥ 0.0",
         default=1.5,
     )
-    method: Key[Literal["generalized-alpha"], Literal["generalized-alpha"]] = Key(
-        "Implicit, of second order",
-        "`\"generalized-alpha\"`",
+    method: Key[Literal["generalized-alpha", "energy-momentum"], Literal["generalized-alpha", "energy-momentum"]] = Key(
+        "Implicit, of second order; energy-momentum: forces of bodies and contacts with a penalty do exactly the work of their energy",
+        "`\"generalized-alpha\"`, `\"energy-momentum\"`",
         default="generalized-alpha",
     )
     rho_inf: Key[float | None, float] = Key(

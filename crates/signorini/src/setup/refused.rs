@@ -301,6 +301,11 @@ fn of_solid_error(error: &SolidError) -> (&'static Code, &str, &'static str) {
         SolidError::Locking { body, .. } => {
             (&codes::NOT_A_CHOICE, body, "write  locking = \"auto\"")
         }
+        SolidError::NotConserving { body, .. } => (
+            &codes::NOT_BUILT,
+            body,
+            "locking = \"none\", or elements that need no remedy; bars:  strain = \"small\"",
+        ),
         SolidError::OnAxis { body, .. } => (
             &codes::OUT_OF_RANGE,
             body,

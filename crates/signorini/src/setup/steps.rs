@@ -93,6 +93,7 @@ impl Builder<'_> {
         let scheme = match dynamics.method {
             DynamicMethod::GeneralizedAlpha(radius) => Scheme::generalized_alpha(radius),
             DynamicMethod::HilberHughesTaylor(alpha) => Scheme::hilber_hughes_taylor(alpha),
+            DynamicMethod::EnergyMomentum => Scheme::energy_momentum(),
         };
         Some(Scheme {
             redistributed: *dynamics.redistributed,

@@ -77,17 +77,36 @@ impl Builder<'_> {
             return None;
         }
         let table = fields.table("dynamics");
-        let rho_inf = table.number_if("rho_inf");
         let contact_mass = table.text("contact_mass");
         Some(Dynamics {
-            method: match table.number_if("alpha") {
-                Some(alpha) => DynamicMethod::HilberHughesTaylor(alpha.value),
-                None => DynamicMethod::GeneralizedAlpha(rho_inf.map_or(RHO_INF, |rho| rho.value)),
-            },
+            method: self.dynamic_method(table),
             redistributed: Spanned::new(contact_mass.value == "redistributed", contact_mass.place),
             error_tol: table.number("error_tol"),
             impact_step: table.number("impact_step"),
         })
+    }
+
+    /// The method of a dynamic step, with its number.
+    fn dynamic_method(&mut self, table: Fields<'_>) -> DynamicMethod {
+        let [rho_inf, alpha] = ["rho_inf", "alpha"].map(|key| table.number_if(key));
+        if table.text("method").value == "energy-momentum" {
+            for key in ["rho_inf", "alpha"]
+                .into_iter()
+                .filter(|key| table.has(key))
+            {
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!("`{key}` means nothing with  method = \"energy-momentum\""),
+                    &table.place(key),
+                    "delete it: no frequency is damped",
+                );
+            }
+            return DynamicMethod::EnergyMomentum;
+        }
+        match (alpha, rho_inf) {
+            (Some(alpha), _) => DynamicMethod::HilberHughesTaylor(alpha.value),
+            (None, rho) => DynamicMethod::GeneralizedAlpha(rho.map_or(RHO_INF, |rho| rho.value)),
+        }
     }
 
     /// Which natural frequencies a step finds. Nothing but supports changes in it.

@@ -111,6 +111,8 @@ pub enum DynamicMethod {
     GeneralizedAlpha(f64),
     /// The method of Hilber, Hughes and Taylor, with its α.
     HilberHughesTaylor(f64),
+    /// The method that conserves energy and momenta.
+    EnergyMomentum,
 }
 
 impl Step {

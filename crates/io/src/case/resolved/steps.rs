@@ -67,22 +67,27 @@ pub(super) fn step(step: &Step) -> Entries {
         ("temperature", tables(&step.temperatures, temperature)),
     ];
     entries.extend(step.dynamics.as_ref().map(|dynamics| {
-        let number = match dynamics.method {
-            DynamicMethod::GeneralizedAlpha(rho_inf) => ("rho_inf", rho_inf.into()),
-            DynamicMethod::HilberHughesTaylor(alpha) => ("alpha", alpha.into()),
+        let (method, number) = match dynamics.method {
+            DynamicMethod::GeneralizedAlpha(rho_inf) => {
+                ("generalized-alpha", Some(("rho_inf", rho_inf.into())))
+            }
+            DynamicMethod::HilberHughesTaylor(alpha) => {
+                ("generalized-alpha", Some(("alpha", alpha.into())))
+            }
+            DynamicMethod::EnergyMomentum => ("energy-momentum", None),
         };
         let contact_mass = match *dynamics.redistributed {
             true => "redistributed",
             false => "as-is",
         };
-        let method = ("method", "generalized-alpha".into());
-        let mass = ("contact_mass", contact_mass.into());
-        let error = ("error_tol", dynamics.error_tol.into());
-        let impact = ("impact_step", dynamics.impact_step.into());
-        (
-            "dynamics",
-            Value::Table(vec![method, number, mass, error, impact]),
-        )
+        let mut entries = vec![("method", method.into())];
+        entries.extend(number);
+        entries.extend([
+            ("contact_mass", contact_mass.into()),
+            ("error_tol", dynamics.error_tol.into()),
+            ("impact_step", dynamics.impact_step.into()),
+        ]);
+        ("dynamics", Value::Table(entries))
     }));
     entries.extend(step.prints.as_ref().map(|prints| {
         // an empty list says that earlier ones end

@@ -81,8 +81,8 @@ static DYNAMICS: Table = Table {
     keys: &[
         key(
             "method",
-            Shape::Choice(&[word("generalized-alpha")]),
-            "implicit, of second order",
+            Shape::Choice(&[word("generalized-alpha"), word("energy-momentum")]),
+            "implicit, of second order; energy-momentum: forces of bodies and contacts with a penalty do exactly the work of their energy",
         )
         .or(Default::Text("generalized-alpha")),
         key(

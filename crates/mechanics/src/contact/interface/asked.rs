@@ -3,6 +3,7 @@
 use crate::contact::friction::{Limit, Sliding};
 use crate::contact::kernel::{Answer, Laws, Past};
 use crate::contact::law::Eval;
+use crate::contact::row::SeenGap;
 
 /// Answers for rows that follow each other, and buffers for what the laws are asked with.
 #[derive(Default)]
@@ -27,13 +28,13 @@ impl Asked {
     }
 
     /// A further row: its gap and its multiplier along the normal, where it has a pair.
-    pub fn push(&mut self, at: Option<[f64; 2]>) {
+    pub fn push(&mut self, at: Option<(SeenGap, f64)>) {
         self.answers.push(at.map(|at| Answer {
             at,
             ..Answer::default()
         }));
-        self.gaps.extend(at.map(|at| at[0]));
-        self.lambdas.extend(at.map(|at| at[1]));
+        self.gaps.extend(at.map(|(gap, _)| gap.now));
+        self.lambdas.extend(at.map(|(_, lambda)| lambda));
     }
 
     /// The answer for each row.
@@ -50,7 +51,7 @@ impl Asked {
             .pressures(gaps, lambdas, laws.scale, &mut self.pressures);
         let with_pair = self.answers.iter_mut().flatten();
         for (answer, pressure) in with_pair.zip(&self.pressures) {
-            answer.pressure = *pressure;
+            answer.pressure = laws.secant(answer.at.0).unwrap_or(*pressure);
         }
         self.ask_for_limits(laws, past);
     }
@@ -69,7 +70,7 @@ impl Asked {
             if answer.pressure == Eval::default() {
                 continue;
             }
-            let [gap, lambda] = answer.at;
+            let (gap, lambda) = answer.at;
             let answered = Laws {
                 answer: Some(answer),
                 ..*laws

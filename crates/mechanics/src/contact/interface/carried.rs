@@ -10,6 +10,14 @@
 //! contact force that is whole and sees γ₁ does no positive work in closing and opening, whatever the law: what is stored is given
 //! back at most.
 //!
+//! Where energy is conserved, the law sees a gap of its own instead, (E9) of `dynamic_gap`, which has the gradient
+//!
+//! ```text
+//! q  = b + (1 − αf) (∂b/∂d)ᵀ Δd                                                                  (E10)
+//! ```
+//!
+//! and bonds by a stiffness are stretched as they are between the ends: that is the mean of both.
+//!
 //! The derivative of e₁ leaves out that of `P B`, which is none where sides are flat.
 
 use crate::contact::row::{Participant, Row, Rows};
@@ -20,14 +28,20 @@ use signorini_geometry::tensor::Vec3;
 #[derive(Default)]
 pub(super) struct Ways(Vec<f64>);
 
-/// Carries the rows of a group on to the end of the increment; `slips` and `bond`: whether rows have a tangential part, and whether
-/// it is the whole way.
-pub(super) fn carry_on(
-    rows: &mut Rows,
-    between: &Between,
-    [slips, bond]: [bool; 2],
-    Ways(ways): &mut Ways,
-) {
+/// How rows go on.
+pub(super) struct Carried {
+    /// Whether they have a tangential part.
+    pub slips: bool,
+    /// Whether that is the whole way.
+    pub bond: bool,
+    /// Whether forces are secants of a potential.
+    pub conserves: bool,
+    /// The gap at the start of the increment, where they go on from that.
+    pub start: Option<f64>,
+}
+
+/// Carries the rows of a group on to the end of the increment.
+pub(super) fn carry_on(rows: &mut Rows, between: &Between, how: &Carried, Ways(ways): &mut Ways) {
     ways.clear();
     for participant in rows.participants() {
         match *participant {
@@ -44,36 +58,44 @@ pub(super) fn carry_on(
         }
     }
     for row in rows.rows_mut() {
-        carry(row, between.alpha_f, [slips, bond], ways);
+        carry(row, between.alpha_f, how, ways);
     }
 }
 
-fn carry(row: &mut Row, alpha: f64, [slips, bond]: [bool; 2], ways: &[f64]) {
+fn carry(row: &mut Row, alpha: f64, how: &Carried, ways: &[f64]) {
     let left = 1.0 - alpha;
     let closes: f64 = row.weights.iter().zip(ways).map(|(b, d)| b * d).sum();
-    row.gap += alpha * closes;
+    let (own, share);
+    (row.gap, own, share) = match how.start {
+        Some(start) => (start + closes, 0.0, 1.0),
+        None => (row.gap + alpha * closes, left, alpha),
+    };
     let n = ways.len();
     let has_gradient = row.gradient.len() == n && row.weights.len() == n;
     if has_gradient {
         for (g, b) in row.gradient.iter_mut().zip(&row.weights) {
-            *g = left * *g + alpha * b;
+            *g = own * *g + share * b;
         }
     }
     if has_gradient && row.dweights.len() == n * n {
         for (line, way) in row.dweights.chunks_exact_mut(n).zip(ways) {
             for (q, d) in row.gradient.iter_mut().zip(line) {
-                *q += alpha * left * *d * way;
+                *q += share * left * *d * way;
                 *d *= left;
             }
         }
     }
-    if slips {
-        carry_slip(row, alpha, bond, ways);
+    if how.slips {
+        let share = match how.bond && how.conserves {
+            true => 0.0,
+            false => alpha,
+        };
+        carry_slip(row, [left, share], how.bond, ways);
     }
 }
 
-fn carry_slip(row: &mut Row, alpha: f64, bond: bool, ways: &[f64]) {
-    let (left, normal) = (1.0 - alpha, row.normal);
+fn carry_slip(row: &mut Row, [left, share]: [f64; 2], bond: bool, ways: &[f64]) {
+    let normal = row.normal;
     let within = |v: Vec3| if bond { v } else { v - normal * normal.dot(v) };
     let sliding = &mut row.sliding;
     let way: Vec3 = sliding
@@ -82,9 +104,9 @@ fn carry_slip(row: &mut Row, alpha: f64, bond: bool, ways: &[f64]) {
         .zip(ways)
         .map(|(b, d)| *b * *d)
         .sum();
-    sliding.slip += within(way) * alpha;
+    sliding.slip += within(way) * share;
     for (slope, b) in sliding.dslip.iter_mut().zip(&sliding.operator) {
-        *slope = *slope * left + within(*b) * alpha;
+        *slope = *slope * left + within(*b) * share;
     }
     sliding.scale_derivatives(left);
 }

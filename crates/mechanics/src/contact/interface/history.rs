@@ -20,7 +20,7 @@ const TOUCH: f64 = 1e-12;
 
 /// Numbers of a pair, of a memory and of a judgement, in a checkpoint.
 pub(super) const PAIR: usize = 11;
-pub(super) const MEMORY: usize = 15;
+pub(super) const MEMORY: usize = 16;
 pub(super) const JUDGED: usize = 3;
 
 impl Interface {
@@ -547,11 +547,12 @@ fn memory_to_numbers(memory: &Memory) -> [f64; MEMORY] {
     numbers[1..13].copy_from_slice(vectors.as_flattened());
     numbers[13] = memory.lambda.scalar;
     numbers[14] = memory.path;
+    numbers[15] = memory.gap.unwrap_or(f64::NAN);
     numbers
 }
 
 fn memory_from_numbers(n: &[f64]) -> Memory {
-    let &[facet, a, b, c, o, p, q, u, v, w, x, y, z, scalar, path] = n else {
+    let &[facet, a, b, c, o, p, q, u, v, w, x, y, z, scalar, path, gap] = n else {
         return Memory::default();
     };
     let anchor = (facet >= 0.0).then(|| Anchored {
@@ -569,5 +570,6 @@ fn memory_from_numbers(n: &[f64]) -> Memory {
         },
         slip: Vec3::new(x, y, z),
         path,
+        gap: (!gap.is_nan()).then_some(gap),
     }
 }

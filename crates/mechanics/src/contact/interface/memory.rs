@@ -29,6 +29,19 @@ pub(super) struct Memory {
     pub slip: Vec3,
     /// Its length since contact was made.
     pub path: f64,
+    /// Its dynamic gap, where energy was conserved.
+    pub gap: Option<f64>,
+}
+
+/// The dynamic gaps of all rows in an increment, without what is added to them.
+#[derive(Debug, Default)]
+pub(super) struct DynamicGaps {
+    /// γ₀; nothing for a row without a pair, or where energy is not conserved.
+    pub start: Vec<Option<f64>>,
+    /// γ₁ of the iterate that was found.
+    pub reached: Vec<Option<f64>>,
+    /// When the increment begins.
+    pub time: f64,
 }
 
 impl History {

@@ -5,6 +5,7 @@ mod audited;
 mod carried;
 mod coupled;
 mod drift;
+mod dynamic_gap;
 mod freedom;
 mod history;
 mod inherited;
@@ -42,7 +43,7 @@ use asked::Asked;
 use coupled::Coupled;
 use judged::Judged;
 use lents::Lents;
-use memory::History;
+use memory::{DynamicGaps, History};
 use near::Near;
 use reversals::Reversals;
 use signorini_geometry::mesh::NodeId;
@@ -102,6 +103,7 @@ pub struct Interface {
     changes: Vec<u8>,
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
     astray: Vec<(usize, Pair)>,
+    gaps: DynamicGaps,
 }
 
 /// Overlaps that an increment allows for.
@@ -164,6 +166,7 @@ impl Interface {
             whole: Vec::new(),
             drift: None,
             astray: Vec::new(),
+            gaps: DynamicGaps::default(),
         }
     }
 
@@ -392,8 +395,11 @@ impl Interface {
             self.search(&at).map_err(|e| self.failed(&e))?;
         }
         self.sees_others |= self.lend(from)?;
-        self.measure_again(&at).map_err(|e| self.failed(&e))?;
-        self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
+        if !self.conserves() {
+            // energy is stored over areas that stay
+            self.measure_again(&at).map_err(|e| self.failed(&e))?;
+            self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
+        }
         self.bend_again(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
         if first || others || settled {
@@ -406,6 +412,7 @@ impl Interface {
         self.reversals.reset(self.parts.discretization.nrow());
         self.history.begin();
         self.begin_limits(from)?;
+        self.begin_gaps(from)?;
         self.stick(&at).map_err(|e| self.failed(&e))
     }
 

@@ -1,9 +1,7 @@
 //! The report of a contact on an accepted state.
 
 use super::means::{Means, OfRow};
-use super::{
-    Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
-};
+use super::{Contact, Interface, Measure, Order, Participant, Rows, Scratch, State, TermError};
 use crate::contact::discretization::OnRow;
 use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
@@ -313,7 +311,7 @@ impl Interface {
         let mut centre = (Vec3::ZERO, 0.0);
         let (mut all, mut on_rows) = (Vec::with_capacity(nrow), Vec::with_capacity(nrow));
         for row in 0..nrow {
-            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
+            let acts = self.reported_row(row, state, &mut scratch.rows)?;
             let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
             let present = self.area(row) * coverage;
             // a point of a rule may have no area at all

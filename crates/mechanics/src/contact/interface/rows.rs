@@ -1,6 +1,7 @@
 //! Rows, and the forces on them.
 
-use super::carried::{Ways, carry_on};
+use super::carried::{Carried, Ways, carry_on};
+use super::dynamic_gap::carried;
 use super::{
     Answer, Asked, Contact, Interface, Judged, Lambda, Laws, Order, Participant, RowOrder, Rows,
     Scratch, Sink, State, TermError, Wanted,
@@ -88,14 +89,14 @@ impl Interface {
         }
     }
 
-    /// Fills a row; its gap is what the law sees.
-    pub(super) fn fill(
+    /// Fills a row with what is measured where the sides are; says what it holds.
+    pub(super) fn relate(
         &self,
         row: usize,
         trial: &State,
         order: RowOrder,
         rows: &mut Rows,
-    ) -> Result<(), TermError> {
+    ) -> Result<Wanted, TermError> {
         let parts = &self.parts;
         let laws = self.laws();
         let order = match trial.between {
@@ -117,11 +118,33 @@ impl Interface {
             .discretization
             .row(row, &parts.pair, &trial.placement(), &links, wanted, rows)
             .map_err(|e| self.failed(&e))?;
+        Ok(wanted)
+    }
+
+    /// Fills a row; its gap is what the law sees.
+    pub(super) fn fill(
+        &self,
+        row: usize,
+        trial: &State,
+        order: RowOrder,
+        rows: &mut Rows,
+    ) -> Result<(), TermError> {
+        let wanted = self.relate(row, trial, order, rows)?;
+        let laws = self.laws();
+        let start = self.gap_at_start(row);
         if let Some(between) = &trial.between {
             let mut ways = std::mem::take(rows.scratch.of::<Ways>());
-            carry_on(rows, between, [wanted.slip, laws.bond], &mut ways);
+            let carried = Carried {
+                slips: wanted.slip,
+                bond: laws.bond,
+                conserves: self.conserves(),
+                start: start.map(|[start, _]| start),
+            };
+            carry_on(rows, between, &carried, &mut ways);
             *rows.scratch.of::<Ways>() = ways;
         }
+        let is_between = trial.between.is_some();
+        let kept = self.gap_kept(row).filter(|_| !is_between);
         let shift = self.shift(row, trial.time);
         let held = if wanted.slip && self.nmultiplier() > 1 && !laws.bond {
             self.held_directions(row, rows)
@@ -130,7 +153,8 @@ impl Interface {
         };
         let lends = self.lents.of(row).is_some();
         if let Some(row) = rows.rows_mut().first_mut() {
-            row.gap += shift;
+            row.gap = kept.map_or(row.gap, |kept| carried(kept, row.gap)) + shift;
+            row.from = start.filter(|_| is_between).map(|[_, from]| from);
             row.sliding.held = held;
             if self.step.vibrates {
                 // a normal that turns has no symmetric part
@@ -161,7 +185,7 @@ impl Interface {
             // gaps first: most rows are open and need nothing else
             self.fill(row, trial, RowOrder::Gap, rows)?;
             let lambda = self.lambda(row, trial);
-            let acts = |r: &Row| laws.acts(r.gap, r.normal, &lambda);
+            let acts = |r: &Row| laws.acts(r.seen(), r.normal, &lambda);
             if !rows.rows().iter().any(acts) {
                 return Ok(false);
             }
@@ -188,7 +212,7 @@ impl Interface {
             self.fill(row, trial, RowOrder::Gap, rows)?;
             let lambda = self.lambda(row, trial);
             let filled = rows.rows().first();
-            asked.push(filled.map(|r| [r.gap, laws.scalar(r.normal, &lambda)]));
+            asked.push(filled.map(|r| (r.seen(), laws.scalar(r.normal, &lambda))));
         }
         asked.ask(&laws, share.map(|row| self.history.past(row)));
         Ok(())
@@ -380,7 +404,7 @@ impl Interface {
         };
         let stiffness = |row: &Row| {
             let lambda = self.lambda(row.number, trial);
-            let normal = laws.pressure(row.gap, row.normal, &lambda).dgap.abs();
+            let normal = laws.pressure(row.seen(), row.normal, &lambda).dgap.abs();
             let tangential = laws.stick_stiffness(&self.answered(row, &lambda, answer));
             normal.max(tangential) * self.measure(row.number)
         };
@@ -417,7 +441,7 @@ impl Interface {
         };
         let scalar = laws.scalar(row.normal, &lambda);
         let normal = laws.law.energy(row.gap, scalar, laws.scale);
-        let along = match held.filter(|_| laws.acts(row.gap, row.normal, &lambda)) {
+        let along = match held.filter(|_| laws.acts(row.seen(), row.normal, &lambda)) {
             Some(limit) => laws.friction_energy(row, &lambda, limit),
             None => 0.0,
         };

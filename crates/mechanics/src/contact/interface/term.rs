@@ -150,6 +150,7 @@ impl Adaptive for Interface {
         if let Some(goes_on) = self.let_restless_go() {
             return Ok(goes_on);
         }
+        self.reach_gaps(trial)?;
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
             return Ok(limits);
@@ -240,6 +241,7 @@ impl Choices for Interface {
 
 impl Stored for Interface {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.keep_gaps();
         self.accepted.clone_from(&self.now);
         self.accepted_judged.clone_from(&self.judged);
         self.started = true;

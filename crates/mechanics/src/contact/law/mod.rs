@@ -29,6 +29,7 @@ mod definition;
 mod exponential;
 mod lagrange;
 mod penalty;
+mod secant;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -40,6 +41,7 @@ pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};
 pub use exponential::Exponential;
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;
+pub(super) use secant::secant;
 use signorini_vocabulary::{Description, Entry};
 use std::sync::Arc;
 pub use table::{Table, TableError};

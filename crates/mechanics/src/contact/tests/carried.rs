@@ -3,19 +3,35 @@
 use super::super::law::{AugmentedNewton, ContactLaw, Lagrange, Penalty};
 use super::scene::{Choice, Kind, Method, Scene};
 use super::{Random, largest, next_increment};
-use crate::system::{Choices, Order, State, Term};
-
-const ALPHA: f64 = 0.4;
+use crate::system::{Choices, Order, Phase, Scheme, State, StepContext, Term};
 
 /// The state seen where the increment ends with `to`.
-fn seen(scene: &Scene, from: &State, to: &State) -> State {
+fn seen(scheme: &Scheme, scene: &Scene, from: &State, to: &State) -> State {
     let mut state = to.clone();
-    state.set_between(ALPHA, &scene.layout, [from, to]);
+    state.set_between(scheme, &scene.layout, [from, to]);
     state
 }
 
+/// The increment of a motion with inertia.
+fn increment(scheme: Scheme) -> Phase {
+    let step = StepContext {
+        scheme: Some(scheme),
+        ..StepContext::default()
+    };
+    Phase {
+        step,
+        ..next_increment()
+    }
+}
+
 /// The largest error of the tangent over its largest entry, and how large the multipliers' part is.
-fn error(kind: Kind, method: Method, law: Box<dyn ContactLaw>, seed: u64) -> Option<f64> {
+fn error(
+    scheme: Scheme,
+    kind: Kind,
+    method: Method,
+    law: Box<dyn ContactLaw>,
+    seed: u64,
+) -> Option<f64> {
     let choice = Choice {
         law,
         friction: None,
@@ -25,10 +41,10 @@ fn error(kind: Kind, method: Method, law: Box<dyn ContactLaw>, seed: u64) -> Opt
     let mut scene = Scene::new(kind, method, choice, seed);
     let mut random = Random::new(seed + 77);
     let from = scene.state.clone();
-    scene.interface.begin(&next_increment(), &from).unwrap();
+    scene.interface.begin(&increment(scheme), &from).unwrap();
     scene.state = scene.further(&mut random);
     let to = scene.state.clone();
-    let here = seen(&scene, &from, &to);
+    let here = seen(&scheme, &scene, &from, &to);
     let whole = scene.respond(&here, Order::Tangent);
     scene.interface.verdict(&here);
     let n = scene.layout.ndof();
@@ -37,7 +53,7 @@ fn error(kind: Kind, method: Method, law: Box<dyn ContactLaw>, seed: u64) -> Opt
     let mut change = vec![0.0; n];
     for (step, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
         let there = scene.moved(&v, step * h);
-        let there = seen(&scene, &from, &there);
+        let there = seen(&scheme, &scene, &from, &there);
         let force = scene.respond(&there, Order::Residual).force;
         if !scene.is_settled(&there) {
             return None;
@@ -59,6 +75,10 @@ fn the_stiffness_between_is_the_derivative_against_the_end() {
         || Box::new(Lagrange),
         || Box::new(AugmentedNewton),
     ];
+    let schemes = [
+        Scheme::generalized_alpha(2.0 / 3.0),
+        Scheme::energy_momentum(),
+    ];
     let methods = [
         Method::NodeToSegment,
         Method::SmallSliding,
@@ -73,14 +93,17 @@ fn the_stiffness_between_is_the_derivative_against_the_end() {
             for (number, law) in laws.iter().enumerate() {
                 for seed in 0..4 {
                     let seed = 10 * number as u64 + seed;
-                    let Some(error) = error(Kind::Elements(name), method, law(), seed) else {
-                        continue;
-                    };
-                    tried += 1;
-                    assert!(error < 2e-7, "{name} {method:?} {number} {seed}: {error:e}");
+                    for scheme in schemes {
+                        let kind = Kind::Elements(name);
+                        let Some(error) = error(scheme, kind, method, law(), seed) else {
+                            continue;
+                        };
+                        tried += 1;
+                        assert!(error < 2e-7, "{name} {method:?} {number} {seed}: {error:e}");
+                    }
                 }
             }
-            assert!(tried >= 6, "{name} {method:?}: choices changed");
+            assert!(tried >= 12, "{name} {method:?}: choices changed");
         }
     }
 }

@@ -256,7 +256,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         }
         // (E8)
         let tangent = response.tangent.map(|r| r.map(|c| c * square * square));
-        let f = finite.then_some(&here.f);
+        let f = finite.then_some([&here.f; 2]);
         add_stiffness::<NN, ND, NG>(gradient, f, weight, &stress, &tangent, symmetric, out);
         let twice = if finite { 2.0 } else { 0.0 };
         let (left, right) = contractions(&tangent, &metric);

@@ -11,6 +11,8 @@ pub(in crate::solid) struct Element<'a> {
     pub reference: &'a Points,
     pub x: &'a [Vec3],
     pub u: &'a [f64],
+    /// Their way in the increment, where stresses are secants; `u` is then halfway.
+    pub way: &'a [f64],
     pub material: &'a dyn Material,
     pub kinematics: Kinematics,
     pub space: Idealisation,

@@ -15,6 +15,7 @@ mod gradient;
 mod lanes;
 mod modes;
 mod plain;
+mod secant;
 mod shear;
 mod stiffness;
 
@@ -45,7 +46,9 @@ pub(super) enum Remedy {
 struct Kernels {
     nnode: usize,
     plain: Kernel,
-    /// The same for several cells at once.
+    /// The same between the ends of an increment where energy is conserved.
+    secant: Kernel,
+    /// The plain one for several cells at once.
     batch: Option<BatchKernel>,
     dilatation: Option<Kernel>,
     modes: Option<Kernel>,
@@ -56,6 +59,7 @@ const fn kernels<const NN: usize, const ND: usize, const NG: usize>() -> Kernels
     Kernels {
         nnode: NN,
         plain: plain::respond::<NN, ND, NG>,
+        secant: secant::respond::<NN, ND, NG>,
         batch: None,
         dilatation: Some(dilatation::respond::<NN, ND, NG>),
         modes: None,
@@ -68,6 +72,7 @@ const fn bare<const NN: usize, const ND: usize, const NG: usize>() -> Kernels {
     Kernels {
         nnode: NN,
         plain: plain::respond::<NN, ND, NG>,
+        secant: secant::respond::<NN, ND, NG>,
         batch: None,
         dilatation: None,
         modes: None,
@@ -144,6 +149,16 @@ pub(super) fn batch_kernel(
 ) -> Option<BatchKernel> {
     let found = kernels_of(element, space).filter(|_| remedy == Remedy::None)?;
     found.batch
+}
+
+/// The kernel of an element without remedy between the ends of an increment where energy is conserved.
+pub(super) fn secant_kernel(
+    element: &dyn ReferenceElement,
+    space: Idealisation,
+    remedy: Remedy,
+) -> Option<Kernel> {
+    let found = kernels_of(element, space).filter(|_| remedy == Remedy::None)?;
+    Some(found.secant)
 }
 
 /// The kernel of an element; `None` where there is none.

@@ -29,7 +29,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         let force = contract::<NN, ND, NG>(&at.gradient, &f, &response.stress);
         add_force(out.force, at.weight, &force); // (E1)
         if order == Order::Tangent {
-            let f = finite.then_some(&f);
+            let f = finite.then_some([&f; 2]);
             let (stress, tangent) = (&response.stress, &response.tangent);
             add_stiffness::<NN, ND, NG>(
                 &at.gradient,

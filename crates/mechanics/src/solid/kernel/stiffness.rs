@@ -50,12 +50,13 @@ pub(super) fn add_force<const NN: usize, const ND: usize>(
     }
 }
 
-/// Adds `w N_I,a A_iakb N_J,b` with `A_iakb = F_ir C_rasb F_ks + δ_ik S_ab` (E2), the second part only at finite strain.
+/// Adds `w N_I,a A_iakb N_J,b` with `A_iakb = F_ir C_rasb F_ks + δ_ik S_ab` (E2), the second part only at finite strain. The left and
+/// the right `F` need not be the same.
 /// Where it is `symmetric`, only blocks on and above the diagonal. Of the rows, as many as there is room for.
 #[inline]
 pub(super) fn add_stiffness<const NN: usize, const ND: usize, const NG: usize>(
     gradient: &[[f64; NG]; NN],
-    f: Option<&Mat3>,
+    f: Option<[&Mat3; 2]>,
     weight: f64,
     stress: &Sym3,
     tangent: &[[f64; 6]; 6],
@@ -137,7 +138,7 @@ type Moduli<const ND: usize, const NG: usize> = [[[[f64; NG]; ND]; NG]; ND];
 /// `w A_iakb`: the derivative of the first Piola–Kirchhoff stress with respect to the displacement gradient.
 #[inline]
 fn moduli<const ND: usize, const NG: usize>(
-    f: Option<&Mat3>,
+    f: Option<[&Mat3; 2]>,
     weight: f64,
     stress: &Sym3,
     tangent: &[[f64; 6]; 6],
@@ -152,7 +153,7 @@ fn moduli<const ND: usize, const NG: usize>(
             // F_ir C_ra··
             let mut half = [0.0; 6];
             match f {
-                Some(f) => {
+                Some([f, _]) => {
                     for r in 0..3 {
                         let factor = weight * f.rows[row_i][r];
                         for q in 0..6 {
@@ -168,7 +169,7 @@ fn moduli<const ND: usize, const NG: usize>(
                         continue;
                     };
                     out[i][a][k][b] = match f {
-                        Some(f) => {
+                        Some([_, f]) => {
                             let mut sum = 0.0;
                             for r in 0..3 {
                                 sum += half[PAIR[r][b]] * f.rows[row_k][r];

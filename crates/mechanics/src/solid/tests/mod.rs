@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 mod axes;
 mod batch;
+mod conserving;
 mod derivatives;
 mod history;
 mod locking;

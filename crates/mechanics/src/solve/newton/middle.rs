@@ -4,7 +4,7 @@ use crate::system::{Layout, Scheme, State};
 
 /// The state between an accepted one and that of the iterate.
 pub(super) struct Middle {
-    alpha_f: f64,
+    scheme: Scheme,
     layout: Layout,
     from: State,
     pub state: State,
@@ -19,7 +19,7 @@ impl Middle {
                 ..from.clone()
             };
             Self {
-                alpha_f: scheme.alpha_f,
+                scheme: *scheme,
                 layout: *layout,
                 from: state.clone(),
                 state,
@@ -30,7 +30,7 @@ impl Middle {
     /// The iterate has moved.
     pub fn follow(&mut self, trial: &State) {
         self.state
-            .set_between(self.alpha_f, &self.layout, [&self.from, trial]);
+            .set_between(&self.scheme, &self.layout, [&self.from, trial]);
     }
 }
 
