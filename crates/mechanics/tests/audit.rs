@@ -14,6 +14,7 @@ struct Law {
     penalty: Option<f64>,
     mu: Option<f64>,
     shift: f64,
+    moved: f64,
     joined: bool,
 }
 
@@ -24,6 +25,10 @@ impl Rules for Law {
 
     fn shift(&self, _: usize) -> f64 {
         self.shift
+    }
+
+    fn moved(&self, _: usize) -> f64 {
+        self.moved
     }
 
     fn gap(&self, _: usize, pressure: f64) -> f64 {
@@ -164,7 +169,7 @@ fn surfaces_that_touch_pass() {
 }
 
 #[test]
-fn pressure_at_a_distance_fails_unless_it_is_prescribed() {
+fn pressure_at_a_distance_fails_unless_it_is_prescribed_or_was_there() {
     for held in [false, true] {
         let apart = Scene {
             height: 0.01,
@@ -179,11 +184,15 @@ fn pressure_at_a_distance_fails_unless_it_is_prescribed() {
             shift: -0.01,
             ..Law::default()
         };
-        let scene = Scene {
-            law: prescribed,
-            ..apart
+        // a pressure of an earlier time
+        let moving = Law {
+            moved: 0.01,
+            ..Law::default()
         };
-        assert_eq!(scene.failures(), []);
+        for law in [prescribed, moving] {
+            let scene = Scene { law, ..apart };
+            assert_eq!(scene.failures(), []);
+        }
     }
 }
 

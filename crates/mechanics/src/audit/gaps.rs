@@ -335,7 +335,7 @@ pub fn apart(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules, seen: 
     for &k in &support.closed {
         let pressure = of.pressure.get(k).copied().unwrap_or_default();
         let tolerance = tolerance(support, seen, k);
-        let allowed = rules.gap(k, pressure).max(0.0) + tolerance;
+        let allowed = rules.gap(k, pressure).max(0.0) + tolerance + rules.moved(k);
         let shifted = |gap: Option<f64>| gap.map_or(f64::INFINITY, |g| g + rules.shift(k));
         let mut gap = shifted(smallest(support, seen, k));
         if gap > allowed && sides.primary.nfacet() > 0 {
@@ -434,7 +434,8 @@ pub fn through(support: &Support<'_>, rules: &dyn Rules, seen: &Seen) -> Measure
         let Some(node) = support.nodes.get(k).filter(|n| n.size > 0.0) else {
             return;
         };
-        let allowed = SLACK * rules.gap(k, pressure).min(0.0) - tolerance(support, seen, k);
+        let tolerance = tolerance(support, seen, k) + rules.moved(k);
+        let allowed = SLACK * rules.gap(k, pressure).min(0.0) - tolerance;
         let gap = gap + rules.shift(k);
         let part = (allowed - gap) / node.size;
         if part > measured.limit {

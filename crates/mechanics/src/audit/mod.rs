@@ -32,6 +32,8 @@
 //! (A6) stopped     Σ |f·Δu| of contact forces on bodies that only contact holds  ≥  max(STOPPED · W, TOUCHED · W_∞)
 //! ```
 //!
+//! Where energy is conserved, a pressure belongs to an increment and not to its end: (A1) and (A2) allow for what the gap moves in one.
+//!
 //! (A1), (A3) and (A4) are judged by the part of the contact force that they concern, so that the last node of an edge does
 //! not cause alarm. Where a method holds the geometry of the start, `g = g₀ + ν₀·(u_s − u_p)` at the closest points of the
 //! start is judged ([`Sides::start`]).

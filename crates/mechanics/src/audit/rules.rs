@@ -54,6 +54,8 @@ pub trait Rules: Sync {
     fn joined(&self) -> bool;
     /// The prescribed shift of the gap at a node of the secondary side, by its place among them.
     fn shift(&self, node: usize) -> f64;
+    /// How far the gap has gone since the time that the pressure on a node belongs to, at most.
+    fn moved(&self, node: usize) -> f64;
     /// The gap that the law has at a pressure on a node.
     fn gap(&self, node: usize, pressure: f64) -> f64;
     /// The largest tangential traction at a pressure on a node; `None` without friction.

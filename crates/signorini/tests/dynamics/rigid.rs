@@ -1,6 +1,6 @@
 //! Rigid bodies with a mass: free, on a pivot, in contact.
 
-use super::{Table, refusal, solved, stopped_after};
+use super::{Table, refusal, solve, solved, stopped_after};
 use std::fmt::Write;
 
 /// A rigid cube that moves with its centre, and what moves it.
@@ -372,7 +372,12 @@ fn a_tumbling_block_keeps_its_energy() {
     let lost = there(&solved(&by("rho_inf = 0.8")));
     assert!(lost[299] < 0.1 * lost[0], "{lost:?}");
     let text = by("method = \"energy-momentum\"");
-    let got = solved(&text);
+    let (finished, got) = solve(&text);
+    assert!(
+        finished.summary.audit.passed,
+        "{}",
+        finished.diagnostics.plain()
+    );
     assert!(got["c.force_y"].iter().filter(|f| **f > 0.0).count() > 3);
     let kept = there(&got);
     for energy in &kept {

@@ -17,6 +17,8 @@ struct Obeyed<'a> {
     frame: &'a ContactFrame,
     /// The shifts of gaps; empty where there are none.
     shifts: Vec<f64>,
+    /// How far gaps have gone in the increment; empty where pressures are those of its end.
+    ways: Vec<f64>,
     /// The nodes opposite; empty where there are facets.
     partners: Vec<Option<NodeId>>,
 }
@@ -49,6 +51,7 @@ impl Interface {
             at: state.placement(),
             frame: of,
             shifts: self.shifts_at_nodes(state.time),
+            ways: self.ways_at_nodes(),
             partners: self.partners(),
         };
         Some(audit::contact(of, frame, &sides, &rules))
@@ -78,6 +81,28 @@ impl Interface {
             }
         }
         partners
+    }
+
+    /// The longest way of the dynamic gaps around each node of the secondary side in the increment.
+    fn ways_at_nodes(&self) -> Vec<f64> {
+        if self.gaps.start.is_empty() {
+            return Vec::new();
+        }
+        let points = &self.parts.pair.points;
+        let mut ways = vec![0.0_f64; points.len()];
+        for row in 0..self.parts.discretization.nrow() {
+            let ends = self.gap_at_start(row).zip(self.gap_kept(row));
+            let Some(([from, _], to)) = ends else {
+                continue;
+            };
+            for node in self.parts.discretization.point(row).nodes {
+                let place = points.binary_search(node).ok();
+                if let Some(way) = place.and_then(|k| ways.get_mut(k)) {
+                    *way = way.max((to - from).abs());
+                }
+            }
+        }
+        ways
     }
 
     /// The shift of the gaps around each node of the secondary side: the mean over its rows.
@@ -121,6 +146,10 @@ impl Rules for Obeyed<'_> {
 
     fn shift(&self, node: usize) -> f64 {
         self.shifts.get(node).copied().unwrap_or_default()
+    }
+
+    fn moved(&self, node: usize) -> f64 {
+        self.ways.get(node).copied().unwrap_or_default()
     }
 
     /// By halving: pressures fall with the gap.
