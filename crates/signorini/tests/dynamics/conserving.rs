@@ -55,6 +55,32 @@ fn blocks_keep_energy_and_momenta_in_an_impact() {
     }
 }
 
+/// A law that pushes at a distance has its energy there, too; and so has the body, of any law and in any idealisation of the plane.
+#[test]
+fn other_laws_keep_energy() {
+    let curve = Blocks {
+        enforcement: "{ exponential = { p0 = 1.0, c0 = 0.02 } }",
+        ..Blocks::default()
+    };
+    let sheet = Blocks::default();
+    let auto = Blocks {
+        enforcement: "\"auto\"",
+        ..Blocks::default()
+    };
+    for (text, place) in [
+        (curve.text(), "exponential"),
+        (
+            sheet.text().replace("plane-strain", "plane-stress"),
+            "plane stress",
+        ),
+        (auto.text(), "auto"),
+    ] {
+        let got = solved(&text);
+        assert!(got["c.force_x"].iter().any(|f| f.abs() > 5.0), "{place}");
+        assert!(drift(&got) < 1e-10, "{place}: {:e}", drift(&got));
+    }
+}
+
 /// By mortar in the plane energy is kept, and angular momentum as far as weights balance moments.
 #[test]
 fn mortar_in_the_plane_keeps_energy() {

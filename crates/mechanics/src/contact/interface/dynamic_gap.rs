@@ -6,25 +6,16 @@
 //!
 //! is what the law sees at the end of an increment, and [`secant`](crate::contact::law::secant) takes the pressure from the energies at
 //! γ₀ and γ₁: with that the contact force does exactly the work of the law's potential. A row has a measured gap at the start of the
-//! increment in which it closes, and its own from then on, until it opens: its γ differs from the measured gap by what weights change
-//! within increments, which is of second order in their length. A row that opens while its measured gap is still negative goes on
-//! with a gap of zero.
+//! increment in which it closes, and its own from then on, until the law acts at neither gap: its γ differs from the measured gap by what
+//! weights change within increments, which is of second order in their length.
 //!
 //! Laws with a multiplier have no energy to take the secant of: they see the end of the increment, (E7) of `carried`.
 //!
 //! Source: Armero and Petőcz, CMAME 158, 1998, section 4 (the dynamic gap function).
 
 use super::{Interface, Rows, State, TermError};
-use crate::contact::law::Multiplier;
+use crate::contact::law::{Eval, Multiplier};
 use crate::contact::row::RowOrder;
-
-/// The gap of a row that has kept one, where another one is measured.
-pub(super) fn carried(kept: f64, measured: f64) -> f64 {
-    match kept < 0.0 {
-        true => kept,
-        false => measured.max(0.0),
-    }
-}
 
 impl Interface {
     /// Whether forces are secants of a potential.
@@ -46,21 +37,30 @@ impl Interface {
         if self.carries_gaps() {
             let mut rows = Rows::default();
             for row in 0..self.parts.discretization.nrow() {
-                let kept = self.gap_kept(row);
-                if kept.is_some_and(|gap| gap < 0.0) {
-                    gaps.start.push(kept);
-                    continue;
-                }
                 self.relate(row, from, RowOrder::Gap, &mut rows)?;
                 let measured = rows.rows().first().map(|filled| filled.gap);
-                gaps.start.push(match (kept, measured) {
-                    (Some(kept), Some(gap)) => Some(carried(kept, gap)),
-                    _ => measured,
-                });
+                let start = measured.map(|gap| self.carried_gap(row, gap, from.time));
+                gaps.start.push(start);
             }
         }
         self.gaps = gaps;
         Ok(())
+    }
+
+    /// The gap of a row with this measured one, both without what is added to them at a time: that which it has kept, as long as the
+    /// law acts at either of the two.
+    pub(super) fn carried_gap(&self, row: usize, measured: f64, time: f64) -> f64 {
+        let Some(kept) = self.gap_kept(row) else {
+            return measured;
+        };
+        let (law, scale) = (&self.parts.law, &self.parts.scale);
+        let shift = self.shift(row, time);
+        let acts = |gap: f64| law.pressure(gap + shift, 0.0, scale) != Eval::default();
+        if acts(kept) || acts(measured) {
+            kept
+        } else {
+            measured
+        }
     }
 
     /// γ₁ of the rows at an iterate that was found.

@@ -1,7 +1,6 @@
 //! Rows, and the forces on them.
 
 use super::carried::{Carried, Ways, carry_on};
-use super::dynamic_gap::carried;
 use super::{
     Answer, Asked, Contact, Interface, Judged, Lambda, Laws, Order, Participant, RowOrder, Rows,
     Scratch, Sink, State, TermError, Wanted,
@@ -144,7 +143,6 @@ impl Interface {
             *rows.scratch.of::<Ways>() = ways;
         }
         let is_between = trial.between.is_some();
-        let kept = self.gap_kept(row).filter(|_| !is_between);
         let shift = self.shift(row, trial.time);
         let held = if wanted.slip && self.nmultiplier() > 1 && !laws.bond {
             self.held_directions(row, rows)
@@ -153,7 +151,10 @@ impl Interface {
         };
         let lends = self.lents.of(row).is_some();
         if let Some(row) = rows.rows_mut().first_mut() {
-            row.gap = kept.map_or(row.gap, |kept| carried(kept, row.gap)) + shift;
+            if !is_between {
+                row.gap = self.carried_gap(row.number, row.gap, trial.time);
+            }
+            row.gap += shift;
             row.from = start.filter(|_| is_between).map(|[_, from]| from);
             row.sliding.held = held;
             if self.step.vibrates {
