@@ -547,7 +547,7 @@ fn memory_to_numbers(memory: &Memory) -> [f64; MEMORY] {
     numbers[1..13].copy_from_slice(vectors.as_flattened());
     numbers[13] = memory.lambda.scalar;
     numbers[14] = memory.path;
-    numbers[15] = memory.gap.unwrap_or(f64::NAN);
+    numbers[15] = memory.gap.unwrap_or(f64::INFINITY);
     numbers
 }
 
@@ -570,6 +570,6 @@ fn memory_from_numbers(n: &[f64]) -> Memory {
         },
         slip: Vec3::new(x, y, z),
         path,
-        gap: (!gap.is_nan()).then_some(gap),
+        gap: gap.is_finite().then_some(gap),
     }
 }
