@@ -2,7 +2,7 @@
 
 use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
 use super::law::{ContactLaw, Eval, Multiplier, Scale, secant};
-use super::row::{Row, SeenGap};
+use super::row::{Row, SeenGap, Viscous};
 use pulp::Arch;
 use signorini_geometry::tensor::Vec3;
 
@@ -43,7 +43,7 @@ impl Answer {
     fn pressure_at(&self, gap: SeenGap, lambda: f64) -> Option<Eval> {
         let bits = |(gap, lambda): (SeenGap, f64)| {
             (
-                [gap.now, lambda].map(f64::to_bits),
+                [gap.now, lambda, gap.viscous.pressure].map(f64::to_bits),
                 gap.from.map(f64::to_bits),
             )
         };
@@ -205,14 +205,36 @@ impl<'a> Laws<'a> {
     /// The pressure of a gap and a multiplier along the normal.
     fn pressed(&self, gap: SeenGap, scalar: f64) -> Eval {
         let known = self.answer.and_then(|a| a.pressure_at(gap, scalar));
-        let at_end = || self.law.pressure(gap.now, scalar, self.scale);
-        known.or_else(|| self.secant(gap)).unwrap_or_else(at_end)
+        known.unwrap_or_else(|| {
+            let at_end = self.law.pressure(gap.now, scalar, self.scale);
+            self.in_motion(gap, at_end)
+        })
     }
 
-    /// The pressure that does the work of the law's energy since the increment began.
-    pub fn secant(&self, gap: SeenGap) -> Option<Eval> {
-        let from = gap.from?;
-        secant(self.law, [from, gap.now], self.scale)
+    /// What becomes in a motion of the law's pressure at the end of an increment: the one that does the work of the law's energy since
+    /// that began, and with what damps, as long as it presses.
+    pub fn in_motion(&self, gap: SeenGap, at_end: Eval) -> Eval {
+        let elastic = self.elastic_pressure(gap, at_end);
+        if gap.viscous == Viscous::default() || elastic == Eval::default() {
+            return elastic;
+        }
+        let value = elastic.value + gap.viscous.pressure;
+        if value <= 0.0 {
+            return Eval::default();
+        }
+        Eval {
+            value,
+            dgap: elastic.dgap - gap.viscous.slope,
+            ..elastic
+        }
+    }
+
+    /// The same without what damps.
+    pub fn elastic_pressure(&self, gap: SeenGap, at_end: Eval) -> Eval {
+        let secant = gap
+            .from
+            .and_then(|from| secant(self.law, [from, gap.now], self.scale));
+        secant.unwrap_or(at_end)
     }
 
     /// The pressure that friction is limited by.

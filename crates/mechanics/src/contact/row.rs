@@ -48,6 +48,8 @@ pub struct Row {
     pub gap: f64,
     /// The gap where the increment began, of a row whose pressure is a secant.
     pub from: Option<f64>,
+    /// What damps the motion along the normal.
+    pub viscous: Viscous,
     /// Unit normal out of the primary side.
     pub normal: Vec3,
     /// The part of its measure that it acts on.
@@ -69,6 +71,17 @@ pub struct SeenGap {
     pub now: f64,
     /// Where the increment began, if the pressure is the secant of the law's energy between both.
     pub from: Option<f64>,
+    /// What damps its motion.
+    pub viscous: Viscous,
+}
+
+/// A pressure against the velocity of a gap, where the law acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Viscous {
+    /// `−c ġ`: positive in closing.
+    pub pressure: f64,
+    /// `c/h`: what a smaller gap at the end of the increment adds to it.
+    pub slope: f64,
 }
 
 impl Row {
@@ -78,6 +91,7 @@ impl Row {
         SeenGap {
             now: self.gap,
             from: self.from,
+            viscous: self.viscous,
         }
     }
 
@@ -246,6 +260,7 @@ impl Rows {
         row.number = number;
         row.gap = 0.0;
         row.from = None;
+        row.viscous = Viscous::default();
         row.normal = Vec3::ZERO;
         row.coverage = 1.0;
         row.sliding.free = false;

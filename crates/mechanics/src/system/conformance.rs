@@ -232,6 +232,7 @@ fn specimens() -> Vec<Specimen> {
         )),
         bond: false,
         tangential: None,
+        damping: 0.0,
     };
     let mut all = vec![
         solid("elastic solid", elastic),

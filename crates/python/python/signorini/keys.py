@@ -248,6 +248,20 @@ class Constraint(Table):
     with_: Key[str | None, str] = Key("The nodes of the other side, of cyclic", "text", key="with")
 
 
+class ContactDamping(Table):
+    """What damps closed points in dynamic steps.
+
+    TOML: `contact.damping`.
+    """
+
+    _toml = "contact.damping"
+    normal: Key[float, float] = Key(
+        "Pressure over the velocity of the gap, or force where the law gives forces; never more than what presses in opening",
+        "number ≥ 0.0",
+        default=0.0,
+    )
+
+
 class ContactEnforcementArctangent(Table):
     """A penalty rounded by an arctangent, with a tension at a distance.
 
@@ -478,6 +492,7 @@ class Contact(Table):
         "`\"part\"`, `\"whole\"`",
         default="part",
     )
+    damping: One[ContactDamping] = One(ContactDamping, "What damps closed points in dynamic steps", "a table")
     enforcement: Mixed[ContactEnforcement] = Mixed(
         ContactEnforcement,
         "How penetration is prevented",
@@ -2228,6 +2243,7 @@ if TYPE_CHECKING:
         "all": bool | Sequence[str],
         "area": Literal["reference", "current", "adjacent", "opposite"],
         "basis": Literal["part", "whole"],
+        "damping": ContactDamping | Mapping[str, Any],
         "enforcement": Literal["auto"] | ContactEnforcement | Mapping[str, Any] | ContactLaw,
         "exclude": Sequence[Any] | NDArray[Any],
         "features": Literal["auto", "faces", "edges"],

@@ -91,6 +91,7 @@ fn contact(
             .friction
             .as_ref()
             .and_then(|one| friction(one, (&part.name, &part.place), own, found)),
+        damping: part.damping,
         sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {

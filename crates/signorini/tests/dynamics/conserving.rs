@@ -151,12 +151,15 @@ fn friction_takes_energy() {
 fn an_impact_goes_on_with_the_same_bits() {
     let blocks = Blocks {
         increments: 30,
+        // damping that takes energy, too
+        enforcement: "{ penalty = 800.0, per = \"area\" }\ndamping = { normal = 1.0 }",
         more: "[checkpoint]\nevery = { increments = 1 }",
         friction: 0.2,
         ..Blocks::default()
     };
     let text = blocks.text();
     let got = solved(&text);
+    assert!(*got["energy.damping"].last().unwrap() > 0.01);
     assert!(got["c.force_x"][6..12].iter().all(|f| *f != 0.0));
     let whole = stopped_after(&text, &[]);
     for stops in [&[45][..], &[60, 20]] {
@@ -260,6 +263,34 @@ fn discs_collide_as_the_reference_says() {
             let last = energies[99] / start;
             assert!((0.97..0.99).contains(&last), "{last}");
         }
+    }
+}
+
+/// Contact that damps takes energy in closing and opening, and no momentum; what multipliers and ties hold has nothing to damp.
+#[test]
+fn contact_that_damps_takes_energy() {
+    for (dynamics, exact) in [
+        ("method = \"energy-momentum\"", true),
+        ("rho_inf = 0.8", false),
+    ] {
+        let blocks = Blocks {
+            enforcement: "{ penalty = 800.0, per = \"area\" }\ndamping = { normal = 2.0 }",
+            dynamics,
+            ..Blocks::default()
+        };
+        let (got, [_, [momentum, _]]) = blocks.run();
+        let spent = &got["energy.damping"];
+        assert!(spent.windows(2).all(|two| two[1] >= two[0]));
+        assert!(*spent.last().unwrap() > 0.1);
+        let algorithmic = got["energy.algorithmic"].last().unwrap().abs();
+        assert_eq!(algorithmic < 1e-9, exact, "{algorithmic:e}");
+        assert!(momentum.norm() < 2e-12);
+    }
+    for enforcement in ["{ lagrange = {} }", "{ augmented = \"uzawa\" }"] {
+        let held = format!("{enforcement}\ndamping = {{ normal = 2.0 }}");
+        let text = Blocks::default().text();
+        let refused = refusal(&text.replace("{ penalty = 800.0, per = \"area\" }", &held));
+        assert!(refused.contains("`damping` goes with"), "{refused}");
     }
 }
 

@@ -335,6 +335,39 @@ fn a_block_bounces_as_a_mass_on_a_spring() {
     }
 }
 
+/// A block that falls flat on springs with dampers: it leaves with the velocity of a damped oscillation at the time when its force is
+/// zero, and what it has lost is in the dampers, what the springs keep then included.
+#[test]
+fn a_damped_block_bounces_as_a_damped_oscillator() {
+    let (m, v, k) = (2.0_f64, 3.0, 5000.0_f64);
+    let w = (k / m).sqrt();
+    for xi in [0.05_f64, 0.3] {
+        let root = (1.0 - xi * xi).sqrt();
+        let (wd, c) = (w * root, 2.0 * xi * (k * m).sqrt());
+        let t = (std::f64::consts::PI - (2.0 * xi * root).atan2(1.0 - 2.0 * xi * xi)) / wd;
+        let wanted = -v * (-xi * w * t).exp() * ((wd * t).cos() - xi / root * (wd * t).sin());
+        let mut errors = Vec::new();
+        for increments in [100, 200] {
+            // two nodes touch
+            let conserving = "dynamics = { method = \"energy-momentum\" }\n[solver]\nnewton = { force_tol = 1e-11 }";
+            let duration = 1.5 * std::f64::consts::PI / w;
+            let text = block(0.5 * k, "v = [0, -3]", duration, increments, conserving);
+            let damping = format!("friction = 0.3\ndamping = {{ normal = {:?} }}\n", 0.5 * c);
+            let got = solved(&text.replace("friction = 0.3\n", &damping));
+            let last = increments - 1;
+            errors.push((got["block.velocity_y"][last] - wanted).abs() / v);
+            let lost = 0.5 * m * v * v - got["energy.kinetic"][last];
+            assert!((got["energy.damping"][last] / lost - 1.0).abs() < 1e-9);
+            assert!(got["energy.algorithmic"][last].abs() < 1e-9);
+            assert!(got["c.force_y"].iter().all(|f| *f >= 0.0));
+        }
+        assert!(
+            errors[0] < 2e-4 && errors[1] < 0.4 * errors[0],
+            "{xi}: {errors:?}"
+        );
+    }
+}
+
 #[test]
 fn a_tumbling_block_goes_on_with_the_same_bits_and_gains_no_energy() {
     let weight = "load = [{ on = \"block\", gravity = [0, -9.81] }]";

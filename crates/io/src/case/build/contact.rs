@@ -28,6 +28,7 @@ impl Builder<'_> {
             per: per(fields),
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
+            damping: fields.table("damping").number("normal"),
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,
                 "small" => Sliding::Small,
@@ -184,6 +185,14 @@ impl Builder<'_> {
             contact.enforcement,
             Enforcement::Lagrange | Enforcement::Augmented { .. }
         );
+        if contact.damping > 0.0 && (exact || contact.tied.is_some()) {
+            self.error(
+                &codes::CONTRADICTION,
+                "`damping` goes with contact by a `penalty` or a law of the pressure",
+                &fields.place("damping"),
+                "delete it, or give a `penalty` alone",
+            );
+        }
         for (key, wrong, why, instead) in [
             (
                 "method",

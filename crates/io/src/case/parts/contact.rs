@@ -33,6 +33,8 @@ pub struct Contact {
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
     /// increment has ended.
     pub remembers_traction: bool,
+    /// What damps closed points along the normal in dynamic steps (pressure, or force, over velocity).
+    pub damping: f64,
     /// How far points slide.
     pub sliding: Sliding,
     /// On what of the primary side points may rest.
@@ -72,6 +74,7 @@ impl Contact {
             per: None,
             friction: None,
             remembers_traction: false,
+            damping: 0.0,
             sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,

@@ -41,6 +41,10 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         ),
         ("friction", friction(contact.friction.as_ref())),
         ("friction_history", history.into()),
+        (
+            "damping",
+            Value::Table(vec![("normal", contact.damping.into())]),
+        ),
         ("sliding", sliding.into()),
         ("features", features.into()),
         ("tied", contact.tied.as_ref().map_or(false.into(), tied)),

@@ -75,6 +75,7 @@ pub(super) static CONTACT: Table = Table {
             "what sticking points remember: the place where they stick; or, as OOFEM has it, the traction of the last increment, without friction in the one in which they close",
         )
         .or(Default::Text("place")),
+        key("damping", Shape::Table(&DAMPING), DAMPING.doc).hints(&["viscosity"]),
         key(
             "sliding",
             Shape::Choice(&[word("auto"), word("finite"), word("increment"), word("small")]),
@@ -190,6 +191,18 @@ const FRICTION_KEY: Key = key(
     "coefficient of friction, or a table of what limits it",
 )
 .hints(&["mu"]);
+
+static DAMPING: Table = Table {
+    heading: "damping",
+    doc: "what damps closed points in dynamic steps",
+    keys: &[key(
+        "normal",
+        NOT_NEGATIVE,
+        "pressure over the velocity of the gap, or force where the law gives forces; never more than what presses in opening",
+    )
+    .or(Default::Number(0.0))],
+    rules: &[],
+};
 
 static RULE: Table = Table {
     heading: "rule",

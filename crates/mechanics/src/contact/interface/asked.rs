@@ -51,7 +51,7 @@ impl Asked {
             .pressures(gaps, lambdas, laws.scale, &mut self.pressures);
         let with_pair = self.answers.iter_mut().flatten();
         for (answer, pressure) in with_pair.zip(&self.pressures) {
-            answer.pressure = laws.secant(answer.at.0).unwrap_or(*pressure);
+            answer.pressure = laws.in_motion(answer.at.0, *pressure);
         }
         self.ask_for_limits(laws, past);
     }

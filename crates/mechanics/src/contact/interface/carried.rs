@@ -40,8 +40,13 @@ pub(super) struct Carried {
     pub start: Option<f64>,
 }
 
-/// Carries the rows of a group on to the end of the increment.
-pub(super) fn carry_on(rows: &mut Rows, between: &Between, how: &Carried, Ways(ways): &mut Ways) {
+/// Carries the rows of a group on to the end of the increment. `b·Δd` of the first comes back: what its gap changes by in it.
+pub(super) fn carry_on(
+    rows: &mut Rows,
+    between: &Between,
+    how: &Carried,
+    Ways(ways): &mut Ways,
+) -> f64 {
     ways.clear();
     for participant in rows.participants() {
         match *participant {
@@ -57,12 +62,15 @@ pub(super) fn carry_on(rows: &mut Rows, between: &Between, how: &Carried, Ways(w
             }
         }
     }
+    let mut first = None;
     for row in rows.rows_mut() {
-        carry(row, between.alpha_f, how, ways);
+        let closes = carry(row, between.alpha_f, how, ways);
+        first.get_or_insert(closes);
     }
+    first.unwrap_or_default()
 }
 
-fn carry(row: &mut Row, alpha: f64, how: &Carried, ways: &[f64]) {
+fn carry(row: &mut Row, alpha: f64, how: &Carried, ways: &[f64]) -> f64 {
     let left = 1.0 - alpha;
     let closes: f64 = row.weights.iter().zip(ways).map(|(b, d)| b * d).sum();
     let (own, share);
@@ -92,6 +100,7 @@ fn carry(row: &mut Row, alpha: f64, how: &Carried, ways: &[f64]) {
         };
         carry_slip(row, [left, share], how.bond, ways);
     }
+    closes
 }
 
 fn carry_slip(row: &mut Row, [left, share]: [f64; 2], bond: bool, ways: &[f64]) {

@@ -356,7 +356,14 @@ impl Interface {
         let started = f64::from(u8::from(self.started));
         out.put(
             name("state"),
-            &[self.history.work, started, first[0], first[1], first[2]],
+            &[
+                self.history.work,
+                started,
+                first[0],
+                first[1],
+                first[2],
+                self.history.damped[0],
+            ],
         );
         let drift = self.drift.map(|(ratio, node)| [ratio, f64::from(node)]);
         out.put(name("drift"), drift.as_ref().map_or(&[], |d| &d[..]));
@@ -418,9 +425,10 @@ impl Interface {
             expected: nrow,
         };
         self.coupled = Coupled::from_numbers(&coupled, nrow).ok_or_else(missing)?;
-        let mut state = [0.0; 5];
+        let mut state = [0.0; 6];
         from.get(&name("state"), &mut state)?;
         self.history.work = state[0];
+        self.history.damped = [state[5], 0.0];
         self.started = state[1] != 0.0;
         self.first_step = (state[2] >= 0.0).then(|| crate::system::StepContext {
             number: state[2] as usize,

@@ -18,6 +18,8 @@ pub(super) struct History {
     pub paths: Vec<f64>,
     /// Work spent in friction.
     pub work: f64,
+    /// Work spent in damping, and in the present increment.
+    pub damped: [f64; 2],
 }
 
 /// The memory of a row.
@@ -60,6 +62,7 @@ impl History {
             accepted,
             limits: None,
             work: 0.0,
+            damped: [0.0; 2],
         };
         history.begin();
         history

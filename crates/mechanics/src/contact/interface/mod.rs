@@ -4,6 +4,7 @@ mod asked;
 mod audited;
 mod carried;
 mod coupled;
+mod damped;
 mod drift;
 mod dynamic_gap;
 mod freedom;
@@ -104,6 +105,8 @@ pub struct Interface {
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
     astray: Vec<(usize, Pair)>,
     gaps: DynamicGaps,
+    /// The length of the increment; 0 where none has begun.
+    duration: f64,
 }
 
 /// Overlaps that an increment allows for.
@@ -167,6 +170,7 @@ impl Interface {
             drift: None,
             astray: Vec::new(),
             gaps: DynamicGaps::default(),
+            duration: 0.0,
         }
     }
 

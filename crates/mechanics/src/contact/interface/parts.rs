@@ -102,6 +102,8 @@ pub struct InterfaceParts {
     pub shifts: Vec<Shift>,
     /// Which increments allow for what overlaps at their start.
     pub allowance: Allowance,
+    /// c: what damps the motion of closed rows along the normal (pressure, or force, over velocity), of laws without a multiplier.
+    pub damping: f64,
     /// The surfaces that straight facets were cut from, where gaps are measured between these.
     pub bend: Option<Bend>,
     /// The first multiplier, where the law solves for them: one for each row, and with friction, or joined, one for each
@@ -149,6 +151,7 @@ impl InterfaceParts {
             },
             shifts: Vec::new(),
             allowance: Allowance::default(),
+            damping: 0.0,
             bend: None,
             first_multiplier: 0,
             gap_tolerance: 1e-6,

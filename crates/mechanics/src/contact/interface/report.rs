@@ -193,6 +193,9 @@ impl Interface {
         }
         let (mut report, across) = sums.divide();
         report.work_friction = self.history.work;
+        if self.history.damped[0] != 0.0 {
+            frame.energies.get_or_insert_default().damping += self.history.damped[0];
+        }
         hand_over(report, &across, first, frame);
         Ok(())
     }

@@ -139,8 +139,12 @@ impl Interface {
                 conserves: self.conserves(),
                 start: start.map(|[start, _]| start),
             };
-            carry_on(rows, between, &carried, &mut ways);
+            let change = carry_on(rows, between, &carried, &mut ways);
             *rows.scratch.of::<Ways>() = ways;
+            let viscous = self.viscous(change);
+            rows.rows_mut()
+                .iter_mut()
+                .for_each(|row| row.viscous = viscous);
         }
         let is_between = trial.between.is_some();
         let shift = self.shift(row, trial.time);

@@ -44,7 +44,7 @@ impl Term for Interface {
     }
 
     fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
-        self.step = phase.step;
+        (self.step, self.duration) = (phase.step, phase.dt());
         if self.is_active() && !phase.step.vibrates && self.first_step.is_none() {
             self.first_step = Some(phase.step);
         }
@@ -151,6 +151,7 @@ impl Adaptive for Interface {
             return Ok(goes_on);
         }
         self.reach_gaps(trial)?;
+        self.history.damped[1] = self.damped(trial)?;
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
             return Ok(limits);
@@ -242,6 +243,7 @@ impl Choices for Interface {
 impl Stored for Interface {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.keep_gaps();
+        self.history.damped[0] += std::mem::take(&mut self.history.damped[1]);
         self.accepted.clone_from(&self.now);
         self.accepted_judged.clone_from(&self.judged);
         self.started = true;

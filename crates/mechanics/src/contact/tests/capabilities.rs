@@ -34,6 +34,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
             friction: None,
             bond: false,
             tangential: None,
+            damping: 0.0,
         };
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();

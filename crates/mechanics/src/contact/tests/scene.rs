@@ -88,6 +88,8 @@ pub(crate) struct Choice {
     pub bond: bool,
     /// The stiffness of a bond within the tangent plane.
     pub tangential: Option<f64>,
+    /// What damps along the normal.
+    pub damping: f64,
 }
 
 pub(crate) struct Scene {
@@ -386,6 +388,7 @@ impl Scene {
             }],
             bond,
             bond_tangential: choice.tangential,
+            damping: choice.damping,
             measure: Measure::Area,
             area,
             scale: Scale {

@@ -498,6 +498,7 @@ fn rub(law: Box<dyn ContactLaw>) -> Choice {
         friction: Some((coulomb(), Stick::Stiffness(3.0))),
         bond: false,
         tangential: None,
+        damping: 0.0,
     }
 }
 
@@ -568,6 +569,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         friction: None,
         bond: true,
         tangential: None,
+        damping: 0.0,
     };
     let choices: [&dyn Fn() -> Choice; 6] = [
         &|| rub(Box::new(Penalty)),
@@ -637,6 +639,7 @@ fn planes_of_an_increment_are_those_at_its_start() {
             friction: None,
             bond: false,
             tangential: None,
+            damping: 0.0,
         };
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);

@@ -211,6 +211,7 @@ impl Context<'_> {
             shifts: start::shifts(&found, bend.as_ref(), part),
             bend,
             allowance: start::allowance(part),
+            damping: part.damping,
             discretization: sides.discretization,
             pair: sides.pair,
             law: sides.law,

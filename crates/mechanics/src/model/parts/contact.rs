@@ -255,6 +255,9 @@ pub struct ContactPart {
     pub enforcement: Enforcement,
     /// What the law's pressure refers to; `None`: area where the secondary side has one.
     pub measure: Option<Measure>,
+    /// What damps the motion of closed points along the normal in dynamic steps: pressure over velocity, or force where the law
+    /// gives forces.
+    pub damping: f64,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -323,6 +326,7 @@ impl ContactPart {
             area: AreaPart::default(),
             enforcement: Enforcement::Auto,
             measure: None,
+            damping: 0.0,
             friction: None,
             remembers_traction: false,
             sliding: SlidingRange::default(),
