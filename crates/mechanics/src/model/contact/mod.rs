@@ -167,11 +167,7 @@ impl Context<'_> {
             let known = sides.stand_for_opposite(&found, self.reference, self.spaces);
             known.map_err(surface_error)?;
         }
-        let measure = part.measure.unwrap_or(if sides.area.is_empty() {
-            Measure::Node
-        } else {
-            Measure::Area
-        });
+        let measure = part.measure.unwrap_or(sides.measure());
         let stiffness = sizes.iter().flatten().filter_map(|s| s.stiffness);
         let bare = self.bare(&sides.pair.points, length, sides.secondary().is_none());
         let softest = stiffness.chain(bare).fold(f64::INFINITY, f64::min);

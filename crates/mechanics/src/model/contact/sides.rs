@@ -199,6 +199,14 @@ fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Arc<dyn ContactLaw
 }
 
 impl Sides {
+    /// What the pressure of a law refers to, unless that is said: areas, where points have some.
+    pub fn measure(&self) -> Measure {
+        match self.area.is_empty() {
+            true => Measure::Node,
+            false => Measure::Area,
+        }
+    }
+
     /// How many multipliers its rows have.
     pub fn nmultiplier(&self, part: &ContactPart, rubs: bool, ndim: usize) -> usize {
         let vectors = rubs || part.tie.is_some();
