@@ -27,9 +27,9 @@ impl InitialStiffness for Solid {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let scratch = work.of::<Scratch>();
-        let wanted = Wanted::Stiffness;
-        self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
-            self.hand(s, out);
+        let (at, wanted) = (At::Start, Wanted::Stiffness);
+        self.each(chunk, at, wanted, scratch, |_, _, _, s| {
+            self.hand(at, s, out);
         })
     }
 

@@ -1,7 +1,9 @@
 //! Bodies in motions that conserve energy.
 
+use super::at::At;
 use super::{Solid, SolidError, Truss};
 use crate::material::Kinematics;
+use signorini_geometry::tensor::Vec3;
 
 impl Solid {
     /// Whether each of its elements has a form that conserves energy at this size of strains. Laws with a history have none, and
@@ -41,9 +43,14 @@ impl Solid {
         self.step.conserves() && self.needs_secants(self.kinematics)
     }
 
-    /// Whether the stiffness of the present step is symmetric.
-    pub(super) fn is_symmetric(&self) -> bool {
-        self.material().is_symmetric() && !self.takes_secants()
+    /// The way of the nodes in the increment, where the stress is the secant of the energy over it.
+    pub(super) fn secant_way<'a>(&self, at: At<'a>) -> Option<&'a [Vec3]> {
+        at.way().filter(|_| self.takes_secants())
+    }
+
+    /// Whether the stiffness there is symmetric.
+    pub(super) fn is_symmetric(&self, at: At<'_>) -> bool {
+        self.material().is_symmetric() && self.secant_way(at).is_none()
     }
 }
 

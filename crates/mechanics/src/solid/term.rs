@@ -279,10 +279,9 @@ impl Solid {
         };
         let block = &self.blocks[number];
         scratch.size(block, self.layout.ndim(), wanted);
-        let is_symmetric = self.is_symmetric();
+        let is_symmetric = self.is_symmetric(at);
         let batch = block.treatment(self.kinematics).batch;
-        let one_by_one = wanted == Wanted::Samples || !is_symmetric || at.way().is_some();
-        let batch = batch.filter(|_| !one_by_one);
+        let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric);
         let width = if batch.is_some() { width() } else { 1 };
         for begin in (first..last).step_by(width) {
             let cells = begin..last.min(begin + width);
@@ -309,8 +308,8 @@ impl Solid {
     }
 
     /// Hands over the forces and the stiffness of a cell.
-    pub(super) fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
-        if self.is_symmetric() {
+    pub(super) fn hand(&self, at: At<'_>, of: &Scratch, out: &mut dyn Sink) {
+        if self.is_symmetric(at) {
             out.add_symmetric(&of.dofs, &of.force, &of.blocks, self.layout.ndim());
         } else {
             out.add(&of.dofs, &of.force, &of.stiffness);
@@ -531,7 +530,7 @@ impl Solid {
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
         self.heat(block, cell, at, now, at_start);
         scratch.way.clear();
-        let way = at.way().filter(|_| self.takes_secants());
+        let way = self.secant_way(at);
         if let Some(way) = way {
             let ndim = self.layout.ndim();
             let of_node = |&node: &NodeId| way.get(node as usize).copied().unwrap_or_default();
@@ -681,7 +680,7 @@ impl Term for Solid {
         let scratch = work.of::<Scratch>();
         let at = At::Trial(trial);
         self.each(chunk, at, wanted, scratch, |block, cell, _, s| {
-            self.hand(s, out);
+            self.hand(at, s, out);
             // strains are sums of as many products as there are nodes
             let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
             let sum = block.rigidity[cell] * block.nnode as f64;

@@ -119,6 +119,29 @@ fn stiffness_is_that_against_the_end() {
     }
 }
 
+/// The stiffness at the start of a run is that of any other step: whole, not that of a secant.
+#[test]
+fn the_initial_stiffness_is_that_of_other_steps() {
+    let mut work = Work::default();
+    for (name, mut body) in bodies() {
+        let n = body.layout.ndof();
+        let mut initial = |body: &Body| {
+            let mut dense = Dense {
+                force: vec![0.0; n],
+                stiffness: vec![0.0; n * n],
+            };
+            for chunk in 0..body.solid.nchunk() {
+                let outcome = body.solid.add_initial(chunk, &mut work, &mut dense);
+                outcome.unwrap();
+            }
+            dense.stiffness
+        };
+        let usual = initial(&body);
+        body.solid.step.scheme = Some(Scheme::energy_momentum());
+        assert_eq!(initial(&body), usual, "{name}");
+    }
+}
+
 /// Where nothing moves, or a body turns as it is, stresses are those of the mean place: nothing is divided by nothing.
 #[test]
 fn strains_that_do_not_change_have_their_own_stress() {
