@@ -200,9 +200,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     let finite = element.is_finite();
     let symmetric = element.material.is_symmetric();
     let npoint = element.npoint();
-    out.energy = 0.0;
-    out.force.fill(0.0);
-    out.stiffness.fill(0.0);
+    out.reset();
 
     let frame = Frame::new(element);
     let nterm = frame.nterm;

@@ -62,6 +62,15 @@ pub(in crate::solid) struct Output<'a> {
     pub scratch: &'a mut Vec<f64>,
 }
 
+impl Output<'_> {
+    /// Zeroes what points add to.
+    pub fn reset(&mut self) {
+        self.energy = 0.0;
+        self.force.fill(0.0);
+        self.stiffness.fill(0.0);
+    }
+}
+
 /// What is known at a quadrature point.
 #[derive(Clone, Copy, Default)]
 pub(in crate::solid) struct Sample {

@@ -12,9 +12,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
 ) -> Result<(), Failure> {
     let finite = element.is_finite();
     let symmetric = element.material.is_symmetric();
-    out.energy = 0.0;
-    out.force.fill(0.0);
-    out.stiffness.fill(0.0);
+    out.reset();
     let mut response = Response::default();
     for point in 0..element.npoint() {
         let at = place::<NN, ND, NG>(element, point)?;

@@ -28,9 +28,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     out: &mut Output<'_>,
 ) -> Result<(), Failure> {
     let finite = element.is_finite();
-    out.energy = 0.0;
-    out.force.fill(0.0);
-    out.stiffness.fill(0.0);
+    out.reset();
     let mut responses = [Response::default(); 3];
     for point in 0..element.npoint() {
         let at = place::<NN, ND, NG>(element, point)?;

@@ -23,9 +23,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     order: Order,
     out: &mut Output<'_>,
 ) -> Result<(), Failure> {
-    out.energy = 0.0;
-    out.force.fill(0.0);
-    out.stiffness.fill(0.0);
+    out.reset();
     let slopes = &element.reference.dshape_at_centre;
     let (to_place, _) = inverse(jacobian::<ND>(&element.x[..NN], slopes))?;
     let mut centre = [[0.0; 2]; NN];
