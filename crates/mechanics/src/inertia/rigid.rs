@@ -149,9 +149,7 @@ impl RigidInertia {
             ],
         }
     }
-}
 
-impl RigidInertia {
     /// What turns a body about its centroid (E5), with the derivative (E6) against the end of the increment.
     fn torque(
         &self,

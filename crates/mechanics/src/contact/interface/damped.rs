@@ -11,35 +11,26 @@ use crate::contact::law::Multiplier;
 use crate::contact::row::{RowOrder, Viscous};
 
 impl Interface {
-    /// c; 0 where multipliers or bonds hold the rows.
-    fn damping(&self) -> f64 {
+    /// c/h; nothing where nothing damps, or multipliers or bonds hold the rows.
+    fn damping(&self) -> Option<f64> {
         let has_pressure = self.parts.law.multiplier() == Multiplier::None;
-        match has_pressure && self.parts.bond.is_none() {
-            true => self.parts.damping,
-            false => 0.0,
-        }
+        let damps = has_pressure && self.parts.bond.is_none() && self.duration > 0.0;
+        let damping = self.parts.damping / self.duration;
+        Some(damping).filter(|damping| damps && *damping > 0.0)
     }
 
     /// What damps a row whose gap changes by this in the increment.
     pub(super) fn viscous(&self, change: f64) -> Viscous {
-        let damping = self.damping();
-        if damping == 0.0 || self.duration == 0.0 {
-            return Viscous::default();
-        }
-        let slope = damping / self.duration;
-        Viscous {
+        let of = |slope: f64| Viscous {
             pressure: -slope * change,
             slope,
-        }
+        };
+        self.damping().map(of).unwrap_or_default()
     }
 
     /// The work of damping in an increment that ends with this iterate.
     pub(super) fn damped(&self, trial: &State) -> Result<f64, TermError> {
-        if self.damping() == 0.0
-            || self.duration == 0.0
-            || !self.is_active()
-            || trial.between.is_none()
-        {
+        if self.damping().is_none() || !self.is_active() || trial.between.is_none() {
             return Ok(0.0);
         }
         let (mut rows, mut work) = (Rows::default(), 0.0);
