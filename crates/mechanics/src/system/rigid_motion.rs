@@ -39,7 +39,8 @@ pub struct RigidMass {
     pub inertia: Sym3,
 }
 
-/// How a carrier gets from one state to another: its translation, and the vector of the rotation between, [`Scheme::turn`].
+/// How a carrier gets from one state to another: its translation, and the vector of the rotation between, by the scheme (Cayley's
+/// where it conserves).
 pub fn moved(
     scheme: &Scheme,
     layout: &Layout,
@@ -95,7 +96,7 @@ impl RigidMass {
     }
 
     /// Its way from where it has turned by `start`, [`RigidMass::rotation`], with this translation and rotation of its carrier, see
-    /// [`moved`] and [`Scheme::turn`].
+    /// [`moved`].
     #[must_use]
     pub fn way(
         &self,
