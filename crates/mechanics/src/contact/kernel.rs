@@ -219,7 +219,7 @@ impl<'a> Laws<'a> {
             return elastic;
         }
         let value = elastic.value + gap.viscous.pressure;
-        if value <= 0.0 {
+        if value <= 0.0 && !gap.viscous.pulls {
             return Eval::default();
         }
         Eval {
@@ -479,6 +479,9 @@ impl<'a> Laws<'a> {
         } else {
             self.press(row, measure, lambda.scalar, target);
         }
+        if row.viscous.drag > 0.0 {
+            drag(row, measure, work, target);
+        }
     }
 
     /// Contact without friction: (E1), (E2).
@@ -655,6 +658,26 @@ impl<'a> Laws<'a> {
             }
         }
     }
+}
+
+/// Adds a shear `c_t/h P Bᵀ Δd` against the slip of an increment, (E11) of `damped`.
+fn drag(row: &Row, measure: f64, work: &mut Derivatives, target: &mut Target<'_>) {
+    let (n, width) = (row.weights.len(), target.force.len());
+    let (sliding, drag) = (&row.sliding, row.viscous.drag);
+    let shear = sliding.way * drag;
+    for (f, b) in target.force.iter_mut().zip(&sliding.operator) {
+        *f += measure * b.dot(shear);
+    }
+    if target.stiffness.is_empty() {
+        return;
+    }
+    for (c, slopes) in work.slopes.iter_mut().enumerate() {
+        slopes.clear();
+        let along = |b: &Vec3| if c < 3 { drag * row.within(*b)[c] } else { 0.0 };
+        slopes.extend(sliding.operator.iter().map(along));
+        slopes.resize(width.max(n), 0.0);
+    }
+    add_stiffness(row, measure, (0.0, shear), &work.slopes, target.stiffness);
 }
 
 /// The equations of the multiplier under friction: the residual `missing`, over the scales along the normal and across it.

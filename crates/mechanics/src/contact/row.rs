@@ -75,13 +75,17 @@ pub struct SeenGap {
     pub viscous: Viscous,
 }
 
-/// A pressure against the velocity of a gap, where the law acts.
+/// What resists the velocity of a gap, and of a slip, where the law acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viscous {
     /// `−c ġ`: positive in closing.
     pub pressure: f64,
     /// `c/h`: what a smaller gap at the end of the increment adds to it.
     pub slope: f64,
+    /// Whether it may pull.
+    pub pulls: bool,
+    /// `c_t/h`: shear over the slip in the increment.
+    pub drag: f64,
 }
 
 impl Row {
@@ -107,6 +111,8 @@ impl Row {
 pub struct Sliding {
     /// e: how far the point is from its anchor, within the tangent plane; of a bond, the whole way.
     pub slip: Vec3,
+    /// `P Bᵀ Δd`: how far it slips in the increment, of rows that are carried on to its end.
+    pub way: Vec3,
     /// ∂e/∂d.
     pub dslip: Vec<Vec3>,
     /// ∂ν/∂d.
@@ -138,6 +144,7 @@ pub struct Turn {
 impl Sliding {
     fn reset(&mut self, ncolumn: usize) {
         self.slip = Vec3::ZERO;
+        self.way = Vec3::ZERO;
         self.dscale.clear();
         self.nturn = 0;
         for values in [&mut self.dslip, &mut self.dnormal, &mut self.operator] {

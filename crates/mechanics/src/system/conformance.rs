@@ -3,7 +3,7 @@
 use super::*;
 use crate::connector::Damper;
 use crate::contact::friction::{Coulomb, Stick};
-use crate::contact::law::{ContactLaw, Lagrange, Penalty, Uzawa};
+use crate::contact::law::{ContactLaw, Damping, Lagrange, Penalty, Uzawa};
 use crate::contact::tests::Random;
 use crate::contact::tests::scene::{Choice, Kind, Method, Scene};
 use crate::load::{NodalForces, Schedule};
@@ -232,7 +232,7 @@ fn specimens() -> Vec<Specimen> {
         )),
         bond: false,
         tangential: None,
-        damping: 0.0,
+        damping: Damping::default(),
     };
     let mut all = vec![
         solid("elastic solid", elastic),

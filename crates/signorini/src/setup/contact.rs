@@ -17,7 +17,7 @@ use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
 use signorini_mechanics::contact::friction;
-use signorini_mechanics::contact::law::{self, ContactLaw};
+use signorini_mechanics::contact::law::{self, ContactLaw, Damping};
 use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::model::{
     self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FrictionPart, Method,
@@ -91,7 +91,11 @@ fn contact(
             .friction
             .as_ref()
             .and_then(|one| friction(one, (&part.name, &part.place), own, found)),
-        damping: part.damping,
+        damping: Damping {
+            normal: part.damping.normal,
+            tangential: part.damping.tangential,
+            pulls: part.damping.pulls,
+        },
         sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {

@@ -9,6 +9,14 @@ use signorini_vocabulary::{Chosen, Description};
 /// Rubber on dry concrete has about half of it.
 const ROUGH: f64 = 2.0;
 
+fn damping(fields: Fields<'_>) -> Damping {
+    Damping {
+        normal: fields.number("normal"),
+        tangential: fields.number("tangential"),
+        pulls: fields.flag("pulls"),
+    }
+}
+
 impl Builder<'_> {
     pub(super) fn contact(&mut self, fields: Fields<'_>, place: Place) -> Contact {
         let contact = Contact {
@@ -28,7 +36,7 @@ impl Builder<'_> {
             per: per(fields),
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
-            damping: fields.table("damping").number("normal"),
+            damping: damping(fields.table("damping")),
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,
                 "small" => Sliding::Small,
@@ -185,7 +193,8 @@ impl Builder<'_> {
             contact.enforcement,
             Enforcement::Lagrange | Enforcement::Augmented { .. }
         );
-        if contact.damping > 0.0 && (exact || contact.tied.is_some()) {
+        let damps = contact.damping.normal > 0.0 || contact.damping.tangential > 0.0;
+        if damps && (exact || contact.tied.is_some()) {
             self.error(
                 &codes::CONTRADICTION,
                 "`damping` goes with contact by a `penalty` or a law of the pressure",

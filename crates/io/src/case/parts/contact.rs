@@ -33,8 +33,8 @@ pub struct Contact {
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
     /// increment has ended.
     pub remembers_traction: bool,
-    /// What damps closed points along the normal in dynamic steps (pressure, or force, over velocity).
-    pub damping: f64,
+    /// What damps closed points in dynamic steps.
+    pub damping: Damping,
     /// How far points slide.
     pub sliding: Sliding,
     /// On what of the primary side points may rest.
@@ -74,7 +74,7 @@ impl Contact {
             per: None,
             friction: None,
             remembers_traction: false,
-            damping: 0.0,
+            damping: Damping::default(),
             sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,
@@ -445,3 +445,14 @@ impl GeneralPair {
 
 /// The word for everything, in pairs.
 pub const ANY: &str = "any";
+
+/// What damps closed points in dynamic steps (pressure, or force, over velocity).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Damping {
+    /// Along the normal.
+    pub normal: f64,
+    /// Across it.
+    pub tangential: f64,
+    /// Whether it may pull more than the law presses.
+    pub pulls: bool,
+}

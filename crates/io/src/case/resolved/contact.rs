@@ -43,7 +43,11 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         ("friction_history", history.into()),
         (
             "damping",
-            Value::Table(vec![("normal", contact.damping.into())]),
+            Value::Table(vec![
+                ("normal", contact.damping.normal.into()),
+                ("tangential", contact.damping.tangential.into()),
+                ("pulls", contact.damping.pulls.into()),
+            ]),
         ),
         ("sliding", sliding.into()),
         ("features", features.into()),

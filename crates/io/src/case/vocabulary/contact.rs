@@ -195,12 +195,26 @@ const FRICTION_KEY: Key = key(
 static DAMPING: Table = Table {
     heading: "damping",
     doc: "what damps closed points in dynamic steps",
-    keys: &[key(
-        "normal",
-        NOT_NEGATIVE,
-        "pressure over the velocity of the gap, or force where the law gives forces; never more than what presses in opening",
-    )
-    .or(Default::Number(0.0))],
+    keys: &[
+        key(
+            "normal",
+            NOT_NEGATIVE,
+            "pressure over the velocity of the gap, or force where the law gives forces",
+        )
+        .or(Default::Number(0.0)),
+        key(
+            "tangential",
+            NOT_NEGATIVE,
+            "the same over the velocity of slip, with friction and without",
+        )
+        .or(Default::Number(0.0)),
+        key(
+            "pulls",
+            Shape::Flag,
+            "whether points that open may be held back by more than presses them; else they are free from then on",
+        )
+        .or(Default::Flag(false)),
+    ],
     rules: &[],
 };
 

@@ -113,7 +113,8 @@ fn carry_slip(row: &mut Row, [left, share]: [f64; 2], bond: bool, ways: &[f64]) 
         .zip(ways)
         .map(|(b, d)| *b * *d)
         .sum();
-    sliding.slip += within(way) * share;
+    sliding.way = within(way);
+    sliding.slip += sliding.way * share;
     for (slope, b) in sliding.dslip.iter_mut().zip(&sliding.operator) {
         *slope = *slope * left + within(*b) * share;
     }

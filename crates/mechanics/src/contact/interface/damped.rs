@@ -1,29 +1,40 @@
-//! Contacts that damp the motion of their sides along the normal.
+//! Contacts that damp the motion of their sides.
 //!
 //! ```text
-//! p = p(γ) − c ġ ≥ 0        ġ = b·Δd/h                                                           (E11)
+//! p = p(γ) − c ġ ≥ 0        ġ = b·Δd/h        t = c_t P Bᵀ Δd/h                                  (E11)
 //! ```
 //!
-//! where the law acts. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the gap: exact where sides are flat, or energy is conserved.
+//! where the law acts; what pulls is cut off unless [`Damping::pulls`]. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the
+//! gap: exact where sides are flat, or energy is conserved. The shear t resists slip, with friction and without.
 
 use super::{Interface, Rows, State, TermError};
-use crate::contact::law::Multiplier;
+use crate::contact::law::{Damping, Eval, Multiplier};
 use crate::contact::row::{RowOrder, Viscous};
 
 impl Interface {
-    /// c/h; nothing where nothing damps, or multipliers or bonds hold the rows.
-    fn damping(&self) -> Option<f64> {
+    /// What damps over a length of time; nothing where nothing does, or multipliers or bonds hold the rows.
+    fn damping(&self) -> Option<Damping> {
         let has_pressure = self.parts.law.multiplier() == Multiplier::None;
         let damps = has_pressure && self.parts.bond.is_none() && self.duration > 0.0;
-        let damping = self.parts.damping / self.duration;
-        Some(damping).filter(|damping| damps && *damping > 0.0)
+        Some(self.parts.damping).filter(|damping| damps && damping.acts())
+    }
+
+    /// Whether slip is damped.
+    pub(super) fn drags(&self) -> bool {
+        self.damping()
+            .is_some_and(|damping| damping.tangential > 0.0)
     }
 
     /// What damps a row whose gap changes by this in the increment.
     pub(super) fn viscous(&self, change: f64) -> Viscous {
-        let of = |slope: f64| Viscous {
-            pressure: -slope * change,
-            slope,
+        let of = |damping: Damping| {
+            let slope = damping.normal / self.duration;
+            Viscous {
+                pressure: -slope * change,
+                slope,
+                pulls: damping.pulls,
+                drag: damping.tangential / self.duration,
+            }
         };
         self.damping().map(of).unwrap_or_default()
     }
@@ -43,9 +54,15 @@ impl Interface {
             let at_end = laws.law.pressure(seen.now, 0.0, laws.scale);
             let elastic = laws.elastic_pressure(seen, at_end);
             let whole = laws.in_motion(seen, at_end);
-            let change = -seen.viscous.pressure / seen.viscous.slope;
-            // where nothing presses any more, what the law has left is lost, too
-            work -= self.measure(row) * (whole.value - elastic.value) * change;
+            if seen.viscous.slope > 0.0 {
+                let change = -seen.viscous.pressure / seen.viscous.slope;
+                // where nothing presses any more, what the law has left is lost, too
+                work -= self.measure(row) * (whole.value - elastic.value) * change;
+            }
+            if whole != Eval::default() {
+                let slipped = filled.sliding.way.norm_squared();
+                work += self.measure(row) * seen.viscous.drag * slipped;
+            }
         }
         Ok(work)
     }

@@ -2,7 +2,7 @@
 
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
-use crate::contact::law::{ContactLaw, Penalty, Scale};
+use crate::contact::law::{ContactLaw, Damping, Penalty, Scale};
 use crate::system::ReportedAs;
 use signorini_geometry::surface::SurfaceError;
 use signorini_geometry::tensor::Vec3;
@@ -102,8 +102,8 @@ pub struct InterfaceParts {
     pub shifts: Vec<Shift>,
     /// Which increments allow for what overlaps at their start.
     pub allowance: Allowance,
-    /// c: what damps the motion of closed rows along the normal (pressure, or force, over velocity), of laws without a multiplier.
-    pub damping: f64,
+    /// What damps the motion of closed rows, of laws without a multiplier.
+    pub damping: Damping,
     /// The surfaces that straight facets were cut from, where gaps are measured between these.
     pub bend: Option<Bend>,
     /// The first multiplier, where the law solves for them: one for each row, and with friction, or joined, one for each
@@ -151,7 +151,7 @@ impl InterfaceParts {
             },
             shifts: Vec::new(),
             allowance: Allowance::default(),
-            damping: 0.0,
+            damping: Damping::default(),
             bend: None,
             first_multiplier: 0,
             gap_tolerance: 1e-6,

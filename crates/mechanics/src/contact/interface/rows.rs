@@ -105,7 +105,7 @@ impl Interface {
         };
         let wanted = Wanted {
             order,
-            slip: laws.slips() && order != RowOrder::Gap,
+            slip: (laws.slips() || self.drags()) && order != RowOrder::Gap,
         };
         let links = Links {
             pairing: &self.now,

@@ -25,6 +25,7 @@
 
 mod arctangent;
 mod augmented;
+mod damping;
 mod definition;
 mod exponential;
 mod lagrange;
@@ -36,6 +37,7 @@ mod tests;
 
 pub use arctangent::Arctangent;
 pub use augmented::{AugmentedNewton, Uzawa};
+pub use damping::Damping;
 use definition::TOUCH;
 pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};
 pub use exponential::Exponential;

@@ -3,7 +3,7 @@
 use super::next_increment;
 use super::scene::{Choice, Kind, Method, Scene};
 use crate::contact::discretization::{Averaged, BentSides, Capabilities};
-use crate::contact::law::Penalty;
+use crate::contact::law::{Damping, Penalty};
 use crate::system::{Adaptive, Order, Term};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
@@ -34,7 +34,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
             friction: None,
             bond: false,
             tangential: None,
-            damping: 0.0,
+            damping: Damping::default(),
         };
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();

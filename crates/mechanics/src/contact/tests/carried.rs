@@ -1,6 +1,6 @@
 //! Interfaces between the ends of an increment of a motion with inertia: their stiffness is that against the end.
 
-use super::super::law::{AugmentedNewton, ContactLaw, Lagrange, Penalty};
+use super::super::law::{AugmentedNewton, ContactLaw, Damping, Lagrange, Penalty};
 use super::scene::{Choice, Kind, Method, Scene};
 use super::{Random, largest, next_increment};
 use crate::system::{Choices, Order, Phase, Scheme, State, StepContext, Term};
@@ -26,7 +26,7 @@ fn increment(scheme: Scheme) -> Phase {
 
 /// The largest error of the tangent over its largest entry, and how large the multipliers' part is.
 fn error(
-    (scheme, damping): (Scheme, f64),
+    (scheme, damping): (Scheme, Damping),
     kind: Kind,
     method: Method,
     law: Box<dyn ContactLaw>,
@@ -76,11 +76,27 @@ fn the_stiffness_between_is_the_derivative_against_the_end() {
         || Box::new(Lagrange),
         || Box::new(AugmentedNewton),
     ];
+    let none = Damping::default();
+    let along = Damping {
+        normal: 3.0,
+        ..none
+    };
+    let across = Damping {
+        tangential: 2.0,
+        ..none
+    };
+    let all = Damping {
+        normal: 3.0,
+        pulls: true,
+        ..across
+    };
     // the tangent of what damps is exact where energy is conserved
     let schemes = [
-        (Scheme::generalized_alpha(2.0 / 3.0), 0.0),
-        (Scheme::energy_momentum(), 0.0),
-        (Scheme::energy_momentum(), 3.0),
+        (Scheme::generalized_alpha(2.0 / 3.0), none),
+        (Scheme::energy_momentum(), none),
+        (Scheme::energy_momentum(), along),
+        (Scheme::energy_momentum(), all),
+        (Scheme::generalized_alpha(2.0 / 3.0), across),
     ];
     let methods = [
         Method::NodeToSegment,

@@ -7,7 +7,7 @@ use super::super::discretization::{
     SurfacePair, areas_inside, mortar,
 };
 use super::super::friction::{FrictionLaw, Stick};
-use super::super::law::{ContactLaw, Scale};
+use super::super::law::{ContactLaw, Damping, Scale};
 use super::super::{ContactPhase, Interface, InterfaceParts, Measure, closest_points, nmultiplier};
 use super::{Random, facets_of, next_increment, with_mid_nodes};
 use crate::system::{
@@ -89,7 +89,7 @@ pub(crate) struct Choice {
     /// The stiffness of a bond within the tangent plane.
     pub tangential: Option<f64>,
     /// What damps along the normal.
-    pub damping: f64,
+    pub damping: Damping,
 }
 
 pub(crate) struct Scene {

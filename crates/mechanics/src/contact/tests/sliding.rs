@@ -3,7 +3,9 @@
 
 use super::super::discretization::{PointToSegment, SlidingRange, SurfacePair};
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Sliding, Stick, Tresca};
-use super::super::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
+use super::super::law::{
+    AugmentedNewton, ContactLaw, Damping, Lagrange, Multiplier, Penalty, Uzawa,
+};
 use super::super::{Allowance, ContactPhase, Interface, InterfaceParts};
 use super::scene::{Choice, Kind, Method, Scene};
 use super::{Random, facets, largest, next_increment};
@@ -498,7 +500,7 @@ fn rub(law: Box<dyn ContactLaw>) -> Choice {
         friction: Some((coulomb(), Stick::Stiffness(3.0))),
         bond: false,
         tangential: None,
-        damping: 0.0,
+        damping: Damping::default(),
     }
 }
 
@@ -569,7 +571,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         friction: None,
         bond: true,
         tangential: None,
-        damping: 0.0,
+        damping: Damping::default(),
     };
     let choices: [&dyn Fn() -> Choice; 6] = [
         &|| rub(Box::new(Penalty)),
@@ -639,7 +641,7 @@ fn planes_of_an_increment_are_those_at_its_start() {
             friction: None,
             bond: false,
             tangential: None,
-            damping: 0.0,
+            damping: Damping::default(),
         };
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);

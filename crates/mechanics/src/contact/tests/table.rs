@@ -3,8 +3,8 @@
 
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
 use super::super::law::{
-    Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
-    Uzawa,
+    Arctangent, AugmentedNewton, ContactLaw, Damping, Exponential, Lagrange, Multiplier, Penalty,
+    Table, Uzawa,
 };
 use super::scene::{Choice, Kind, Method, PENALTY, Scene};
 use super::{Random, largest, next_increment};
@@ -209,7 +209,7 @@ fn check(
             friction: friction.clone(),
             bond,
             tangential,
-            damping: 0.0,
+            damping: Damping::default(),
         };
         let multiplier = choice.law.multiplier();
         let rubs = friction.is_some();
@@ -349,7 +349,7 @@ fn multipliers_that_stick_act_as_they_hold() {
                     friction: Some((Arc::new(Tresca(1e3)), Stick::Stiffness(1.0))),
                     bond: false,
                     tangential: None,
-                    damping: 0.0,
+                    damping: Damping::default(),
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
@@ -389,7 +389,7 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
         friction: None,
         bond: false,
         tangential: None,
-        damping: 0.0,
+        damping: Damping::default(),
     };
     let kind = Kind::Elements("quad4");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);

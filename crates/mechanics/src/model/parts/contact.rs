@@ -3,7 +3,7 @@
 use crate::contact::Measure;
 use crate::contact::discretization::{SlidingRange, mortar};
 use crate::contact::friction::{Coulomb, FrictionLaw};
-use crate::contact::law::ContactLaw;
+use crate::contact::law::{ContactLaw, Damping};
 use crate::system::ReportedAs;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
@@ -255,9 +255,8 @@ pub struct ContactPart {
     pub enforcement: Enforcement,
     /// What the law's pressure refers to; `None`: area where the secondary side has one.
     pub measure: Option<Measure>,
-    /// What damps the motion of closed points along the normal in dynamic steps: pressure over velocity, or force where the law
-    /// gives forces.
-    pub damping: f64,
+    /// What damps the motion of closed points in dynamic steps.
+    pub damping: Damping,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -326,7 +325,7 @@ impl ContactPart {
             area: AreaPart::default(),
             enforcement: Enforcement::Auto,
             measure: None,
-            damping: 0.0,
+            damping: Damping::default(),
             friction: None,
             remembers_traction: false,
             sliding: SlidingRange::default(),
