@@ -1,7 +1,7 @@
 //! Everything between a mesh and a result: unknowns, materials, solids, loads, contact, solution.
 //!
 //! ```text
-//! system ◀── solid, load, inertia, contact, connector ◀── model          solve ──▶ system
+//! system ◀── solid, load, inertia, contact, connector ◀── model          solve ──▶ explicit, system
 //! ```
 //!
 //! `solve` knows nothing of solids or contact: all it sees is [`system::Term`]. `material` and `contact::law` have never
@@ -13,6 +13,7 @@ pub mod contact;
 #[cfg(test)]
 #[path = "../../geometry/src/element/testing.rs"]
 mod cubic;
+mod explicit;
 pub mod facing;
 pub mod inertia;
 pub mod load;

@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 45] = [
+const ROOMS: [Room; 46] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -104,7 +104,14 @@ const ROOMS: [Room; 45] = [
             "geometry",
         ],
     ),
-    room("mechanics::solve", &["mechanics::system", "linear"]),
+    room(
+        "mechanics::explicit",
+        &["mechanics::system", "geometry::tensor"],
+    ),
+    room(
+        "mechanics::solve",
+        &["mechanics::system", "mechanics::explicit", "linear"],
+    ),
     room("mechanics::model", &["mechanics", "linear", "geometry"]),
     room("io", &[]),
     room("io::fs", &[]),

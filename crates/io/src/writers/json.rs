@@ -133,6 +133,15 @@ pub enum Event {
         /// Work of supports and loads since the start of the run.
         work_external: f64,
     },
+    /// An explicit step begins.
+    Explicit {
+        /// Name of the step.
+        step: String,
+        /// The longest of its short increments.
+        size: f64,
+        /// Mass that was added, over that of the model.
+        mass_added: f64,
+    },
     /// Motions that nothing resists and no load acts on were held.
     Held {
         /// The step.

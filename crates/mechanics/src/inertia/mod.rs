@@ -62,6 +62,8 @@ pub struct Inertia {
     masses: Masses,
     /// Those of steps in which nodes that contact may act on have none.
     redistributed: Option<Masses>,
+    /// Those of explicit steps.
+    lumped: Option<Masses>,
     step: Option<Scheme>,
     /// The length of the increment; 0 where none has begun.
     h: f64,
@@ -106,6 +108,9 @@ impl Factors {
 
     /// The velocity that damping acts against.
     fn damped(&self, way: Vec3, [v, a]: [Vec3; 2]) -> Vec3 {
+        if self.scheme.explicit.is_some() {
+            return way / self.h;
+        }
         let alpha_f = self.scheme.alpha_f;
         let last = self.scheme.acceleration(way, self.h, v, a);
         let velocity = self.scheme.velocity(self.h, v, [a, last]);
@@ -127,13 +132,20 @@ impl Factors {
 }
 
 impl Inertia {
-    /// That of these masses; and of those in steps in which nodes that contact may act on have none, where there are any.
+    /// That of these masses; and of those in steps in which nodes that contact may act on have none, and in explicit steps,
+    /// where there are any.
     #[must_use]
-    pub fn new(layout: Layout, masses: Masses, redistributed: Option<Masses>) -> Self {
+    pub fn new(
+        layout: Layout,
+        masses: Masses,
+        redistributed: Option<Masses>,
+        lumped: Option<Masses>,
+    ) -> Self {
         Self {
             layout,
             masses,
             redistributed,
+            lumped,
             step: None,
             h: 0.0,
             before: 0.0,
@@ -146,9 +158,17 @@ impl Inertia {
 
     /// The masses of the present step.
     fn present(&self) -> &Masses {
-        let apart = self.step.is_some_and(|step| step.redistributed);
-        let redistributed = self.redistributed.as_ref().filter(|_| apart);
-        redistributed.unwrap_or(&self.masses)
+        let own = match self.step {
+            Some(step) if step.explicit.is_some() => &self.lumped,
+            Some(step) if step.redistributed => &self.redistributed,
+            _ => &None,
+        };
+        own.as_ref().unwrap_or(&self.masses)
+    }
+
+    /// Whether accelerations follow from forces, so that there are no forces of inertia.
+    fn is_explicit(&self) -> bool {
+        self.step.is_some_and(|step| step.explicit.is_some())
     }
 
     /// ½ v·M v (E3).
@@ -181,8 +201,9 @@ impl Inertia {
         cells.map(of_cell).sum()
     }
 
-    /// Sets the velocities of all nodes at the start of the run.
-    pub fn start(&mut self, velocity: &[Vec3]) {
+    /// Sets the velocities of all nodes at the start of the run, and how its first step with inertia goes through time.
+    pub fn start(&mut self, scheme: Option<Scheme>, velocity: &[Vec3]) {
+        self.step = scheme;
         self.at_start = self.kinetic(velocity);
     }
 
@@ -258,7 +279,9 @@ impl Term for Inertia {
         Properties {
             lifetime,
             to_end: true,
-            elements: u64::from(self.step.is_some_and(|step| step.redistributed)),
+            elements: self.step.map_or(0, |step| {
+                u64::from(step.redistributed) + 2 * u64::from(step.explicit.is_some())
+            }),
             ..Properties::new(Symmetry::Definite, Part::Bulk).with_role(Role::Inertia)
         }
     }
@@ -273,6 +296,9 @@ impl Term for Inertia {
         (self.before, self.h) = (self.h, phase.dt());
         if self.h > 0.0 && self.is_damped() {
             self.from.clone_from(&from.x);
+        }
+        if self.is_explicit() {
+            return Ok(());
         }
         match from.rates.as_ref().filter(|_| self.step.is_some()) {
             Some(rates) => self.rates.clone_from(rates),
@@ -299,6 +325,9 @@ impl Term for Inertia {
         work: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
+        if self.is_explicit() {
+            return Ok(());
+        }
         let (ndim, factors) = (self.layout.ndim(), self.factors());
         let present = self.present();
         let Some((group, cells)) = present.chunk(chunk) else {
@@ -413,6 +442,17 @@ impl Stored for Inertia {
 impl Inertial for Inertia {
     fn massless(&self) -> &[NodeId] {
         &self.present().massless
+    }
+
+    fn at_nodes(&self, take: &mut dyn FnMut(NodeId, f64, f64)) {
+        for group in &self.present().groups {
+            for ((nodes, masses), &damping) in group.cells().zip(&group.damping) {
+                let rows = masses.chunks_exact(nodes.len().max(1));
+                for (&node, row) in nodes.iter().zip(rows) {
+                    take(node, row.iter().sum(), damping);
+                }
+            }
+        }
     }
 }
 

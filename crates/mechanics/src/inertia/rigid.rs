@@ -50,6 +50,11 @@ impl RigidInertia {
         }
     }
 
+    /// Whether accelerations follow from forces, so that there are no forces of inertia.
+    fn is_explicit(&self) -> bool {
+        self.step.is_some_and(|step| step.explicit.is_some())
+    }
+
     fn dofs(&self, body: &RigidMass) -> [Dof; 6] {
         self.layout.of_carrier(body.carrier)
     }
@@ -261,6 +266,9 @@ impl Term for RigidInertia {
         self.step = phase.step.scheme;
         self.h = phase.dt();
         self.is_small = from.is_small;
+        if self.is_explicit() {
+            return Ok(());
+        }
         self.starts.clear();
         self.starts.extend(self.bodies.iter().map(|body| {
             let pose = from.poses.get(body.carrier as usize);
@@ -289,6 +297,9 @@ impl Term for RigidInertia {
         _: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
+        if self.is_explicit() {
+            return Ok(());
+        }
         let begun = self.step.as_ref().filter(|_| self.h > 0.0);
         let all = self.bodies.iter().zip(&self.rates).zip(&self.starts);
         for ((body, rates), &(place, start)) in all.skip(chunk * CHUNK).take(CHUNK) {

@@ -65,7 +65,7 @@ fn scene() -> (Layout, Inertia, State) {
     );
     masses.push(&[1], &[0.7], 0.9);
     masses.push(&[1], &[0.2], 0.9);
-    let inertia = Inertia::new(layout, masses.complete(Vec::new()), None);
+    let inertia = Inertia::new(layout, masses.complete(Vec::new()), None, None);
     let mut state = State::initial(&layout, &vectors(5, 50), &Elimination::default());
     state.rates = Some(Rates {
         velocity: vectors(5, 100),

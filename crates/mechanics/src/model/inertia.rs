@@ -23,16 +23,20 @@ impl Context<'_> {
         if schemes.clone().next().is_none() && !vibrates {
             return Ok(Vec::new());
         }
-        let usual = self.masses(at_nodes, &BTreeSet::new())?;
-        let redistributed = if schemes.any(|scheme| scheme.redistributed) {
-            Some(self.masses(at_nodes, &self.on_sides(contacts))?)
-        } else {
-            None
+        let nowhere = BTreeSet::new();
+        let usual = self.masses(at_nodes, &nowhere, false)?;
+        let redistributed = match schemes.clone().any(|scheme| scheme.redistributed) {
+            true => Some(self.masses(at_nodes, &self.on_sides(contacts), false)?),
+            false => None,
         };
-        let mut inertia = Inertia::new(self.layout, usual, redistributed);
+        let lumped = match schemes.clone().any(|scheme| scheme.explicit.is_some()) {
+            true => Some(self.masses(at_nodes, &nowhere, true)?),
+            false => None,
+        };
+        let mut inertia = Inertia::new(self.layout, usual, redistributed, lumped);
         let mut rigid = Vec::new();
         if let Some(rates) = rates {
-            inertia.start(&rates.velocity);
+            inertia.start(schemes.next().copied(), &rates.velocity);
             rigid.clone_from(&rates.bodies);
         }
         let mut terms: Vec<Box<dyn Term>> = vec![Box::new(inertia)];
@@ -44,14 +48,15 @@ impl Context<'_> {
     }
 
     /// The masses of all bodies that deform, and those at nodes. An element with nodes on the `sides` gives its mass to its
-    /// other nodes, in equal shares (E4), where it has any.
+    /// other nodes, in equal shares (E4), where it has any. `lumped`: all are at nodes, whatever the bodies say.
     fn masses(
         &self,
         at_nodes: &[(NodeId, f64)],
         sides: &BTreeSet<NodeId>,
+        lumped: bool,
     ) -> Result<Masses, ModelError> {
         let mut masses = Masses::default();
-        let mut lumped = Vec::new();
+        let mut shares = Vec::new();
         let mut heavy: BTreeSet<NodeId> = BTreeSet::new();
         let bodies = self.substances.iter().zip(self.cells_of_bodies());
         for (body, cells) in bodies.filter(|(body, _)| body.deforms) {
@@ -68,17 +73,18 @@ impl Context<'_> {
                 let off = |node: &&NodeId| !sides.contains(node);
                 let others = nodes.iter().filter(off).count();
                 let touches = others < nodes.len();
-                if !touches && body.mass.matrix == MassMatrix::Consistent {
+                let is_consistent = body.mass.matrix == MassMatrix::Consistent && !lumped;
+                if !touches && is_consistent {
                     masses.push(nodes, matrix, damping);
                     return;
                 }
-                mass::lump(matrix, &mut lumped);
+                mass::lump(matrix, &mut shares);
                 if touches && others > 0 {
-                    let share = lumped.iter().sum::<f64>() / others as f64;
-                    let shares = nodes.iter().zip(&mut lumped);
+                    let share = shares.iter().sum::<f64>() / others as f64;
+                    let shares = nodes.iter().zip(&mut shares);
                     shares.for_each(|(node, m)| *m = if off(&node) { share } else { 0.0 });
                 }
-                for (node, m) in nodes.iter().zip(&lumped).filter(|(_, m)| **m > 0.0) {
+                for (node, m) in nodes.iter().zip(&shares).filter(|(_, m)| **m > 0.0) {
                     heavy.insert(*node);
                     masses.push(&[*node], &[*m], damping);
                 }

@@ -57,6 +57,10 @@ impl Stepper {
         if self.progress.increment == 0 {
             self.progress.record.closed = system.choices().map(Choices::nactive).sum();
         }
+        if let Some(leapfrog) = step.scheme.and_then(|scheme| scheme.explicit) {
+            return self.begin_explicit(system, step, leapfrog);
+        }
+        self.explicit = None;
         if step.scheme.is_some() && self.progress.increment == 0 {
             self.newton.accelerate(system, &mut self.state)?;
         }

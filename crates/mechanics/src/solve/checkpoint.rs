@@ -4,6 +4,7 @@ use super::local_error::Record;
 use super::newton::ForceScale;
 use super::stepping::{Progress, Stepper};
 use super::work::ExternalWork;
+use crate::explicit::Kept;
 use crate::system::{Archive, ArchiveError, System};
 
 impl Stepper {
@@ -38,6 +39,9 @@ impl Stepper {
         let experience = self.newton.equations.experience();
         out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
+        if let Some(explicit) = &self.explicit {
+            explicit.kept().save(out);
+        }
         system.save(out);
     }
 
@@ -76,6 +80,7 @@ impl Stepper {
         if from.length("progress.record").is_ok() {
             from.get("progress.record", &mut record)?;
         }
+        self.kept = Kept::load(from)?;
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;

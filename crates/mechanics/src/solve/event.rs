@@ -136,6 +136,26 @@ pub enum Event<'a> {
         /// What.
         note: &'a Note,
     },
+    /// An explicit step begins.
+    Explicit {
+        /// Its number, from 0.
+        step: usize,
+        /// The longest of its short increments.
+        longest: f64,
+        /// Mass that was added, over that of all that has some.
+        added: f64,
+    },
+    /// An explicit increment is on its way.
+    Leap {
+        /// Number of the step, from 0.
+        step: usize,
+        /// Increment within the step, from 1.
+        increment: usize,
+        /// Short increments so far.
+        count: usize,
+        /// The part of the increment that they have gone through.
+        part: f64,
+    },
     /// Natural modes were found, or tried to be.
     Vibrations {
         /// Number of the step, from 0.
@@ -159,7 +179,8 @@ pub enum Event<'a> {
 pub enum Flow {
     /// Go on.
     Continue,
-    /// Stop: before the next iteration of an increment that has not converged, which is then repeated by who goes on.
+    /// Stop: before the next iteration of an increment that has not converged, which is then repeated by who goes on. An
+    /// explicit increment ends where it is, and who goes on takes the rest of it.
     Stop,
 }
 

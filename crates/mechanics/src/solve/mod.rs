@@ -39,6 +39,7 @@ mod economy;
 mod equations;
 mod event;
 mod forecast;
+mod leap;
 mod line_search;
 mod local_error;
 mod natural;

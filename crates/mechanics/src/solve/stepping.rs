@@ -7,6 +7,7 @@ use super::newton::{Failure, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
 use super::step::{Increments, Motion, Sizes, Step};
 use super::work::ExternalWork;
+use crate::explicit::{Explicit, Kept};
 use crate::system::{
     Aid, Archive, ArchiveError, Dof, Frame, Order, State, System, TermError, interpolate,
 };
@@ -106,6 +107,9 @@ pub struct Stepper {
     pub(super) safer: bool,
     /// The total time at which to pause, where there is one.
     pause: Option<f64>,
+    /// The present step, where it is explicit; and what a stored run knows of it.
+    pub(super) explicit: Option<Box<Explicit>>,
+    pub(super) kept: Option<Kept>,
 }
 
 /// An increment that was accepted.
@@ -181,6 +185,8 @@ impl Stepper {
             stabilize_after: settings.stabilize_after,
             safer: false,
             pause: None,
+            explicit: None,
+            kept: None,
         }
     }
 
@@ -270,6 +276,7 @@ impl Stepper {
             }
             self.begin_step(system, step)
                 .map_err(|cause| self.not_begun(step, cause))?;
+            self.notice_explicit(observer);
             if let Some(wanted) = &step.vibration {
                 let outcome = self.vibrate(system, step, wanted, observer)?;
                 self.go_to(number + 1, step, steps);
@@ -340,7 +347,8 @@ impl Stepper {
             if pause.is_some_and(|at| at - self.progress.time <= TIME * step.duration) {
                 return Ok(Outcome::Stopped);
             }
-            if self.pause.is_none() && self.progress.increment >= sizes.count {
+            let is_explicit = self.explicit.is_some();
+            if self.pause.is_none() && !is_explicit && self.progress.increment >= sizes.count {
                 return Err(RunError::TooManyIncrements {
                     step: step.name.clone(),
                     count: sizes.count,
@@ -349,7 +357,11 @@ impl Stepper {
                 });
             }
             let works = [stabilization::work_of(system), self.progress.work.total];
-            let Some(made) = self.increment(system, step, &sizes, observer)? else {
+            let made = match is_explicit {
+                true => Some(self.leaps(system, step, &sizes, observer)?),
+                false => self.increment(system, step, &sizes, observer)?,
+            };
+            let Some(made) = made else {
                 return Ok(Outcome::Stopped);
             };
             let after = self.notice_increment(system, step, &made, works, observer)?;
@@ -358,6 +370,25 @@ impl Stepper {
             }
         }
         Ok(Outcome::Finished)
+    }
+
+    /// Goes to the end of the next increment of an explicit step.
+    fn leaps(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        sizes: &Sizes,
+        observer: &mut dyn Observer,
+    ) -> Result<Made, RunError> {
+        let end = self.end_of_increment(step, sizes.first);
+        let made = self.leap(system, step, end, observer);
+        let (accepted, end) = made.map_err(|cause| self.not_begun(step, cause))?;
+        Ok(Made {
+            end,
+            dt: end - self.progress.time,
+            attempt: 1,
+            accepted,
+        })
     }
 
     /// Goes to the end of the next increment, by smaller ones where sizes fail; none where it is to stop.
@@ -611,7 +642,7 @@ impl Stepper {
     }
 
     /// The step time at which an increment of about `dt` ends, no later than a pause.
-    fn end_of_increment(&self, step: &Step, dt: f64) -> f64 {
+    pub(super) fn end_of_increment(&self, step: &Step, dt: f64) -> f64 {
         match self.pause_in(step) {
             Some(pause) => pause.min(self.usual_end(step, dt)),
             None => self.usual_end(step, dt),

@@ -19,6 +19,8 @@ pub(super) struct ExternalWork {
     /// What supports and loads exert at the last accepted state, at every raw dof; empty before the first.
     supports: Vec<f64>,
     loads: Vec<f64>,
+    /// Memory for what loads exert next.
+    next: Loads,
 }
 
 /// The names under which forces are stored.
@@ -103,6 +105,77 @@ impl ExternalWork {
         Ok(())
     }
 
+    /// Takes note of the forces at a state where an explicit step begins.
+    ///
+    /// # Errors
+    /// A load that cannot be evaluated.
+    pub fn leave(
+        &mut self,
+        system: &System,
+        prescribed: &[bool],
+        residual: &[f64],
+        state: &State,
+    ) -> Result<(), TermError> {
+        let still = vec![0.0; system.layout.nmotion()];
+        let turnover = self.turnover;
+        self.leap(system, prescribed, residual, state, &still)?;
+        self.turnover = turnover;
+        Ok(())
+    }
+
+    /// Adds the work in a short increment of an explicit step, in which the unknowns move by `du`, up to a state at which
+    /// `residual` was assembled. Allocates nothing after the first.
+    ///
+    /// # Errors
+    /// A load that cannot be evaluated.
+    pub fn leap(
+        &mut self,
+        system: &System,
+        prescribed: &[bool],
+        residual: &[f64],
+        to: &State,
+        du: &[f64],
+    ) -> Result<(), TermError> {
+        let nmotion = system.layout.nmotion();
+        self.supports.resize(system.layout.ndof(), 0.0);
+        self.loads.resize(system.layout.ndof(), 0.0);
+        let mut done = 0.0;
+        let terms = system.terms.iter();
+        let loading = || {
+            terms
+                .clone()
+                .filter(|term| term.properties().role == Role::Load)
+        };
+        if loading().next().is_some() {
+            self.next.0.clear();
+            self.next.0.resize(system.layout.ndof(), 0.0);
+            let mut work = Work::default();
+            for term in loading() {
+                for chunk in 0..term.nchunk() {
+                    term.evaluate(chunk, to, Order::Residual, &mut work, &mut self.next)?;
+                }
+            }
+            let forces = self.loads.iter().zip(&self.next.0).zip(du).take(nmotion);
+            done += forces
+                .map(|((old, new), du)| 0.5 * (old + new) * du)
+                .sum::<f64>();
+            std::mem::swap(&mut self.loads, &mut self.next.0);
+        }
+        let reactions = self
+            .supports
+            .iter_mut()
+            .zip(residual)
+            .zip(du)
+            .zip(prescribed);
+        for (((old, new), du), _) in reactions.take(nmotion).filter(|(_, held)| **held) {
+            done += 0.5 * (*old + new) * du;
+            *old = *new;
+        }
+        self.total += done;
+        self.turnover += done.abs();
+        Ok(())
+    }
+
     /// Stores it: of forces those that are not zero, dof and value.
     pub fn save(&self, out: &mut Archive) {
         out.put("progress.work", &[self.total, self.turnover]);
@@ -152,6 +225,7 @@ fn potential(term: &dyn Term, state: &State, work: &mut Work) -> Result<Option<f
 }
 
 /// Takes what loads exert: the residual has it with the other sign.
+#[derive(Clone, Debug, Default, PartialEq)]
 struct Loads(Vec<f64>);
 
 impl Sink for Loads {

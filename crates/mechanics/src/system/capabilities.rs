@@ -10,11 +10,12 @@
 //! | [`Viscous`] | viscous forces |
 //! | [`Sampled`] | solids, trusses: values at integration points |
 //! | [`Audited`] | contact |
+//! | [`Impulsive`] | contact: explicit steps |
 //! | [`Inertial`] | inertia: where there is none |
 
 use super::{
-    Archive, ArchiveError, ContactAudit, Course, Frame, NodeId, Order, Samples, Sink, State,
-    TermError, Work,
+    Archive, ArchiveError, ContactAudit, Course, Frame, Impulsive, NodeId, Order, Samples, Sink,
+    State, TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
 
@@ -36,6 +37,8 @@ pub struct Capabilities<'a> {
     pub sampled: Option<&'a dyn Sampled>,
     /// Is a contact.
     pub audited: Option<&'a dyn Audited>,
+    /// Is a contact that may act in explicit steps.
+    pub impulsive: Option<&'a dyn Impulsive>,
     /// Has the mass of all bodies.
     pub inertial: Option<&'a dyn Inertial>,
 }
@@ -160,6 +163,10 @@ pub trait Sampled {
 pub trait Inertial {
     /// The nodes that have no mass in the present step though their bodies have one.
     fn massless(&self) -> &[NodeId];
+
+    /// The masses at nodes in the present step, each with its damping over mass; a node may come several times. Of masses
+    /// between nodes, sums of rows.
+    fn at_nodes(&self, take: &mut dyn FnMut(NodeId, f64, f64));
 }
 
 /// A contact, as audits and messages see it.

@@ -517,6 +517,13 @@ impl Elimination {
         }
     }
 
+    /// What a dof moves with at a state: unknowns with their coefficients, itself where it follows nothing.
+    pub fn terms(&self, dof: Dof, state: &State, layout: &Layout, out: &mut impl FnMut(Dof, f64)) {
+        if dof != NO_DOF {
+            self.resolve(dof, state, layout, out);
+        }
+    }
+
     /// Spreads a bound on rounding errors at a dependent dof over what it follows.
     pub(super) fn spread(
         &self,

@@ -54,6 +54,7 @@ mod course;
 mod elimination;
 mod frame;
 mod idealisation;
+mod impulsive;
 mod internal_forces;
 mod layout;
 mod loose;
@@ -88,9 +89,10 @@ pub use frame::{
     ReportedAs, Resultant, RigidFrame, SpinFrame, Status,
 };
 pub use idealisation::{Idealisation, profile_at};
+pub use impulsive::{Acts, Impulsive, NearRow, Rubbing};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
 pub use loose::Course;
-pub use motion::{Between, BodyRates, BodyWay, Rates, Scheme};
+pub use motion::{Between, BodyRates, BodyWay, Leapfrog, MassScaling, Rates, Scheme};
 pub use phase::{Increment, Phase, StepContext};
 pub use rigid_motion::{RigidMass, moved};
 pub use samples::{PointSample, Samples, Wanted};

@@ -19,8 +19,16 @@
 //! the secants of that between the ends: (E21) of `solid::kernel::secant`, (E9) of `contact::interface::dynamic_gap`, (E10) of
 //! `rigid_motion`.
 //!
+//! [`Scheme::explicit`] needs no equations solved, with masses at nodes alone and accelerations `a = M⁻¹ f(x)`:
+//!
+//! ```text
+//! v_½ = v₀ + ½ h a₀        x₁ = x₀ + h v_½        v₁ = v_½ + ½ h a₁                               (E11)
+//! ```
+//!
+//! It is stable while `h < 2/ω` with the highest natural frequency ω.
+//!
 //! Sources: Chung and Hulbert, J. Appl. Mech. 60, 1993; Hilber, Hughes and Taylor, EESD 5, 1977; Brüls, Cardona and Arnold,
-//! Mech. Mach. Theory 48, 2012 (the time of the acceleration).
+//! Mech. Mach. Theory 48, 2012 (the time of the acceleration); Hughes, The Finite Element Method, 1987, section 9.1 (E11).
 
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -40,6 +48,26 @@ pub struct Scheme {
     pub redistributed: bool,
     /// Whether forces that have a potential do the work of that, so that energy and momenta are conserved.
     pub conserves: bool,
+    /// How increments are cut where forces at each cut follow from the state alone (E11); else equations are solved.
+    pub explicit: Option<Leapfrog>,
+}
+
+/// How long the short increments of an explicit step are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leapfrog {
+    /// The part that is taken of the longest that is stable.
+    pub safety: f64,
+    /// Mass that is added, where any is.
+    pub scaling: Option<MassScaling>,
+}
+
+/// Mass that is added to elements whose waves are fast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassScaling {
+    /// How long increments are to be at least, after safety.
+    pub step: f64,
+    /// The mass that may be added, over that of all bodies.
+    pub limit: f64,
 }
 
 impl Scheme {
@@ -67,6 +95,17 @@ impl Scheme {
         Self::with(0.0, -alpha)
     }
 
+    /// Central differences (E11).
+    #[must_use]
+    pub fn explicit(leapfrog: Leapfrog) -> Self {
+        Self {
+            beta: 0.0,
+            gamma: 0.5,
+            explicit: Some(leapfrog),
+            ..Self::with(0.0, 0.0)
+        }
+    }
+
     fn with(alpha_m: f64, alpha_f: f64) -> Self {
         let sum = 1.0 - alpha_m + alpha_f;
         Self {
@@ -76,6 +115,7 @@ impl Scheme {
             gamma: sum - 0.5,
             redistributed: false,
             conserves: false,
+            explicit: None,
         }
     }
 

@@ -256,7 +256,17 @@ class ContactDamping(Table):
 
     _toml = "contact.damping"
     normal: Key[float, float] = Key(
-        "Pressure over the velocity of the gap, or force where the law gives forces; never more than what presses in opening",
+        "Pressure over the velocity of the gap, or force where the law gives forces",
+        "number ≥ 0.0",
+        default=0.0,
+    )
+    pulls: Key[bool, bool] = Key(
+        "Whether points that open may be held back by more than presses them; else they are free from then on",
+        "`true` or `false`",
+        default=False,
+    )
+    tangential: Key[float, float] = Key(
+        "The same over the velocity of slip, with friction and without",
         "number ≥ 0.0",
         default=0.0,
     )
@@ -1510,6 +1520,17 @@ class Deactivate(Table):
     )
 
 
+class DynamicsMassScaling(Table):
+    """Explicit: mass added to elements that would need shorter increments than this.
+
+    TOML: `step.dynamics.mass_scaling`.
+    """
+
+    _toml = "step.dynamics.mass_scaling"
+    limit: Key[float, float] = Key("The mass that may be added, over that of all bodies", "number ≥ 0.0", default=0.05)
+    step: Key[float | None, float] = Key("The shortest increment that is wanted (time)", "number > 0.0")
+
+
 class Dynamics(Table):
     """How a dynamic step goes through time.
 
@@ -1536,14 +1557,23 @@ class Dynamics(Table):
         "number ≥ 0.0",
         default=1.5,
     )
-    method: Key[Literal["generalized-alpha", "energy-momentum"], Literal["generalized-alpha", "energy-momentum"]] = Key(
-        "Implicit, of second order; energy-momentum: forces of bodies and contacts with a penalty do exactly the work of their energy",
-        "`\"generalized-alpha\"`, `\"energy-momentum\"`",
+    mass_scaling: One[DynamicsMassScaling] = One(
+        DynamicsMassScaling,
+        "Explicit: mass added to elements that would need shorter increments than this",
+        "a table",
+    )
+    method: Key[Literal["generalized-alpha", "energy-momentum", "explicit"], Literal["generalized-alpha", "energy-momentum", "explicit"]] = Key(
+        "Implicit, of second order; energy-momentum: forces of bodies and contacts with a penalty do exactly the work of their energy; explicit: central differences with masses at nodes, in short increments that follow from what is stable, as many as an increment takes",
+        "`\"generalized-alpha\"`, `\"energy-momentum\"`, `\"explicit\"`",
         default="generalized-alpha",
     )
     rho_inf: Key[float | None, float] = Key(
         "The spectral radius of the highest frequencies: 1 keeps them, 0 takes them away in an increment; absent: 0.8",
         "number ≥ 0.0, ≤ 1.0",
+    )
+    safety: Key[float | None, float] = Key(
+        "Explicit: the length of short increments, over the longest that is stable; absent: 0.9",
+        "number > 0.0, ≤ 1.0",
     )
 
 

@@ -75,18 +75,23 @@ impl Gain {
         }
     }
 
-    fn warning(&self) -> Diagnostic {
+    fn warning(&self, is_explicit: bool) -> Diagnostic {
         let message = format!(
             "the method of going through time has added {:.2} % to the energy",
             100.0 * self.part()
         );
-        Diagnostic::warning(&codes::ENERGY_ADDED, message)
-            .note(format!(
-                "{:.3e} by time {}; up to {:.1} % is let pass",
-                self.energy,
-                number(self.time),
-                100.0 * GAINED
-            ))
+        let warning = Diagnostic::warning(&codes::ENERGY_ADDED, message).note(format!(
+            "{:.3e} by time {}; up to {:.1} % is let pass",
+            self.energy,
+            number(self.time),
+            100.0 * GAINED
+        ));
+        if is_explicit {
+            return warning
+                .help("take a smaller part of what is stable:  safety = 0.5  in `dynamics`, or a softer `penalty`")
+                .help("or multipliers, which act by impulses:  enforcement = { lagrange = {} }");
+        }
+        warning
             .help("let high frequencies go:  dynamics = { rho_inf = 0.8 }  of the step, in place of `alpha`")
             .help("or nodes without mass at contacts:  contact_mass = \"redistributed\"")
     }
@@ -200,7 +205,9 @@ impl Audit {
             found.push(not_stopped(&self.unheld, model));
         }
         if self.gain.part() > GAINED {
-            found.push(self.gain.warning());
+            let mut methods = model.steps.iter().filter_map(|step| step.scheme);
+            let is_explicit = methods.any(|scheme| scheme.explicit.is_some());
+            found.push(self.gain.warning(is_explicit));
         }
         found
     }

@@ -20,7 +20,7 @@ use signorini_mechanics::model::{
     ActivityPart, BodyPart, Change, ConstraintPart, ControlPart, LoadPart, StepPart, Target,
 };
 use signorini_mechanics::solve::{Increments, Motion, Vibration};
-use signorini_mechanics::system::{CellChange, Scheme, TimeFunction};
+use signorini_mechanics::system::{CellChange, Leapfrog, MassScaling, Scheme, TimeFunction};
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
@@ -94,6 +94,13 @@ impl Builder<'_> {
             DynamicMethod::GeneralizedAlpha(radius) => Scheme::generalized_alpha(radius),
             DynamicMethod::HilberHughesTaylor(alpha) => Scheme::hilber_hughes_taylor(alpha),
             DynamicMethod::EnergyMomentum => Scheme::energy_momentum(),
+            DynamicMethod::Explicit { safety, scaling } => Scheme::explicit(Leapfrog {
+                safety,
+                scaling: scaling.map(|of| MassScaling {
+                    step: of.step,
+                    limit: of.limit,
+                }),
+            }),
         };
         Some(Scheme {
             redistributed: *dynamics.redistributed,

@@ -1,4 +1,4 @@
-//! Motions in time: implicit dynamics with contact.
+//! Motions in time: dynamics with contact.
 //!
 //! SOURCE      Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33, 2011 (bar that bounces); closed forms of waves in bars; the
 //!             recursion of the generalized-α method
@@ -16,6 +16,7 @@ mod blocks;
 mod common;
 mod conserving;
 mod control;
+mod explicit;
 mod impact;
 mod rigid;
 

@@ -4,19 +4,19 @@ use super::{Table, refusal, solve, solved, stopped_after};
 use std::fmt::Write;
 
 /// A rigid cube that moves with its centre, and what moves it.
-struct Cube {
-    mass: f64,
-    inertia: &'static str,
+pub struct Cube {
+    pub mass: f64,
+    pub inertia: &'static str,
     /// Besides `mass` and `inertia`.
-    centroid: &'static str,
-    velocity: &'static str,
-    duration: f64,
-    increments: usize,
-    step: &'static str,
+    pub centroid: &'static str,
+    pub velocity: &'static str,
+    pub duration: f64,
+    pub increments: usize,
+    pub step: &'static str,
 }
 
 impl Cube {
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let mut nodes = String::new();
         for k in 0..8 {
             let at = |bit: usize| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
@@ -49,32 +49,32 @@ impl Cube {
     }
 }
 
-fn vector(of: &Table, name: &str, row: usize) -> [f64; 3] {
+pub fn vector(of: &Table, name: &str, row: usize) -> [f64; 3] {
     ["x", "y", "z"].map(|axis| of[&format!("pilot.{name}_{axis}")][row])
 }
 
 /// R of a rotation vector.
-fn rotation([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
+pub fn rotation([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
     let theta = signorini_geometry::tensor::Vec3::new(x, y, z);
     let rows = signorini_geometry::tensor::Mat3::rotation(theta).rows;
     rows.map(|row| row.to_array())
 }
 
-fn times(m: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+pub fn times(m: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     m.map(|row| row.iter().zip(v).map(|(a, b)| a * b).sum())
 }
 
-fn transposed(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+pub fn transposed(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
     squares.sum::<f64>().sqrt()
 }
 
 /// Angular velocity along the axes of the body at the end.
-fn spin(of: &Table) -> [f64; 3] {
+pub fn spin(of: &Table) -> [f64; 3] {
     let last = of["time"].len() - 1;
     let turned = rotation(vector(of, "rotation", last));
     times(transposed(turned), vector(of, "angular_velocity", last))
@@ -175,7 +175,7 @@ fn a_heavy_top_goes_round_to_second_order() {
 }
 
 /// A plane rigid body of one element on a pivot.
-fn pendulum(angle: f64, period: f64, increments: usize) -> String {
+pub fn pendulum(angle: f64, period: f64, increments: usize) -> String {
     let (m, g, l, inertia) = (2.0, 9.81, 0.7, 0.3);
     let about_pivot: f64 = inertia + m * l * l;
     let duration = period * (about_pivot / (m * g * l)).sqrt();
@@ -214,7 +214,7 @@ fn a_pendulum_is_back_after_its_period() {
 }
 
 /// A rigid disc of so many triangles on a plane, in a field of gravity that leans.
-fn disc(n: usize, mu: f64, increments: usize) -> String {
+pub fn disc(n: usize, mu: f64, increments: usize) -> String {
     let step = std::f64::consts::TAU / n as f64;
     let area = 0.5 * n as f64 * step.sin();
     let mut nodes = "[1, 0.0, 1.0], ".to_owned();
@@ -282,7 +282,13 @@ fn a_disc_rolls_or_slides_down_a_slope() {
 }
 
 /// A rigid block on a floor, by penalties at its nodes.
-fn block(penalty: f64, velocity: &str, duration: f64, increments: usize, extra: &str) -> String {
+pub fn block(
+    penalty: f64,
+    velocity: &str,
+    duration: f64,
+    increments: usize,
+    extra: &str,
+) -> String {
     format!(
         "[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 1, 1], [4, 0, 1]]\n\
          elements = [{{ id = 1, type = \"quad4\", group = \"block\", nodes = [1, 2, 3, 4] }}]\n\

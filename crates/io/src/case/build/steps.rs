@@ -24,6 +24,9 @@ const NOT_IN_FREQUENCY: [&str; 10] = [
     "print",
 ];
 
+/// Keys of dynamics that explicit steps alone have.
+const OF_EXPLICIT: [&str; 2] = ["safety", "mass_scaling"];
+
 impl Builder<'_> {
     pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
         Amplitude {
@@ -88,21 +91,55 @@ impl Builder<'_> {
 
     /// The method of a dynamic step, with its number.
     fn dynamic_method(&mut self, table: Fields<'_>) -> DynamicMethod {
-        let [rho_inf, alpha] = ["rho_inf", "alpha"].map(|key| table.number_if(key));
-        if table.text("method").value == "energy-momentum" {
-            for key in ["rho_inf", "alpha"]
-                .into_iter()
-                .filter(|key| table.has(key))
-            {
-                self.error(
-                    &codes::CONTRADICTION,
-                    format!("`{key}` means nothing with  method = \"energy-momentum\""),
-                    &table.place(key),
-                    "delete it: no frequency is damped",
-                );
-            }
+        let method = table.text("method").value;
+        let is_explicit = method == "explicit";
+        let strangers: &[(&[&str], &str)] = match method.as_str() {
+            "explicit" => &[
+                (&["rho_inf", "alpha"], "delete it: no frequency is damped"),
+                (
+                    &["contact_mass"],
+                    "delete it: nodes without mass have no accelerations",
+                ),
+                (
+                    &["error_tol", "impact_step"],
+                    "delete it: what is stable is short enough",
+                ),
+            ],
+            "energy-momentum" => &[
+                (&["rho_inf", "alpha"], "delete it: no frequency is damped"),
+                (&OF_EXPLICIT, "delete it, or write  method = \"explicit\""),
+            ],
+            _ => &[(&OF_EXPLICIT, "delete it, or write  method = \"explicit\"")],
+        };
+        let named = strangers
+            .iter()
+            .flat_map(|(keys, remark)| keys.iter().map(move |key| (*key, *remark)));
+        for (key, remark) in named.filter(|(key, _)| table.has(key)) {
+            self.error(
+                &codes::CONTRADICTION,
+                format!("`{key}` means nothing with  method = \"{method}\""),
+                &table.place(key),
+                remark,
+            );
+        }
+        if is_explicit {
+            return DynamicMethod::Explicit {
+                safety: table
+                    .number_if("safety")
+                    .map_or(SAFETY, |safety| safety.value),
+                scaling: table.has("mass_scaling").then(|| {
+                    let scaling = table.table("mass_scaling");
+                    MassScaling {
+                        step: scaling.number("step"),
+                        limit: scaling.number("limit"),
+                    }
+                }),
+            };
+        }
+        if method == "energy-momentum" {
             return DynamicMethod::EnergyMomentum;
         }
+        let [rho_inf, alpha] = ["rho_inf", "alpha"].map(|key| table.number_if(key));
         match (alpha, rho_inf) {
             (Some(alpha), _) => DynamicMethod::HilberHughesTaylor(alpha.value),
             (None, rho) => DynamicMethod::GeneralizedAlpha(rho.map_or(RHO_INF, |rho| rho.value)),

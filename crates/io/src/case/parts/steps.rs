@@ -113,7 +113,28 @@ pub enum DynamicMethod {
     HilberHughesTaylor(f64),
     /// The method that conserves energy and momenta.
     EnergyMomentum,
+    /// Central differences: the part of the longest stable increment that is taken, and the mass that is added.
+    Explicit {
+        /// The part that is taken.
+        safety: f64,
+        /// The mass that is added.
+        scaling: Option<MassScaling>,
+    },
 }
+
+/// Mass that is added to elements that would need short increments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassScaling {
+    /// The shortest increment that is wanted.
+    pub step: f64,
+    /// The mass that may be added, over that of all bodies.
+    pub limit: f64,
+}
+
+/// The part of the longest stable increment that explicit steps take unless a case says otherwise.
+pub const SAFETY: f64 = 0.9;
+/// The mass that may be added in these, likewise.
+pub const SCALING_LIMIT: f64 = 0.05;
 
 impl Step {
     /// A step in which nothing changes: one increment of the duration 1.

@@ -75,6 +75,9 @@ pub(super) fn step(step: &Step) -> Entries {
                 ("generalized-alpha", Some(("alpha", alpha.into())))
             }
             DynamicMethod::EnergyMomentum => ("energy-momentum", None),
+            DynamicMethod::Explicit { safety, scaling } => {
+                return ("dynamics", explicit(safety, scaling));
+            }
         };
         let contact_mass = match *dynamics.redistributed {
             true => "redistributed",
@@ -100,6 +103,16 @@ pub(super) fn step(step: &Step) -> Entries {
         ("print", written)
     }));
     entries
+}
+
+/// The method of an explicit step, which has nothing else to say.
+fn explicit(safety: f64, scaling: Option<MassScaling>) -> Value {
+    let scaling = scaling.map(|of| {
+        let entries = vec![("step", of.step.into()), ("limit", of.limit.into())];
+        ("mass_scaling", Value::Table(entries))
+    });
+    let own = [("method", "explicit".into()), ("safety", safety.into())];
+    Value::Table(own.into_iter().chain(scaling).collect())
 }
 
 fn increments(increments: &Increments) -> Value {

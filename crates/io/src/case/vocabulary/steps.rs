@@ -3,7 +3,7 @@
 use super::contact::CONTACT_CHANGE;
 use super::placeholders::LOADS;
 use super::*;
-use crate::case::parts::{ERROR_TOL, IMPACT_STEP};
+use crate::case::parts::{ERROR_TOL, IMPACT_STEP, SCALING_LIMIT};
 
 pub(super) static AMPLITUDE: Table = Table {
     heading: "[amplitude.NAME]",
@@ -81,8 +81,14 @@ static DYNAMICS: Table = Table {
     keys: &[
         key(
             "method",
-            Shape::Choice(&[word("generalized-alpha"), word("energy-momentum")]),
-            "implicit, of second order; energy-momentum: forces of bodies and contacts with a penalty do exactly the work of their energy",
+            Shape::Choice(&[
+                word("generalized-alpha"),
+                word("energy-momentum"),
+                word("explicit"),
+            ]),
+            "implicit, of second order; energy-momentum: forces of bodies and contacts with a penalty do exactly the work of their \
+             energy; explicit: central differences with masses at nodes, in short increments that follow from what is stable, as \
+             many as an increment takes",
         )
         .or(Default::Text("generalized-alpha")),
         key(
@@ -124,8 +130,38 @@ static DYNAMICS: Table = Table {
              of the secondary side; 0: any",
         )
         .or(Default::Number(IMPACT_STEP)),
+        key(
+            "safety",
+            Shape::Number(Bounds {
+                above: Some(0.0),
+                to: Some(1.0),
+                ..FREE
+            }),
+            "explicit: the length of short increments, over the longest that is stable; absent: 0.9",
+        ),
+        key("mass_scaling", Shape::Table(&MASS_SCALING), MASS_SCALING.doc),
     ],
     rules: &[Rule::AtMostOne(&["rho_inf", "alpha"])],
+};
+
+static MASS_SCALING: Table = Table {
+    heading: "mass_scaling",
+    doc: "explicit: mass added to elements that would need shorter increments than this",
+    keys: &[
+        key(
+            "step",
+            POSITIVE,
+            "the shortest increment that is wanted (time)",
+        )
+        .required(),
+        key(
+            "limit",
+            NOT_NEGATIVE,
+            "the mass that may be added, over that of all bodies",
+        )
+        .or(Default::Number(SCALING_LIMIT)),
+    ],
+    rules: &[],
 };
 
 static FREQUENCY: Table = Table {

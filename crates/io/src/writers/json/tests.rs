@@ -169,6 +169,14 @@ fn events_of_a_run() -> Vec<(Event, &'static str)> {
             "diagnostic",
         ),
         (
+            Event::Explicit {
+                step: text(),
+                size: 1e-6,
+                mass_added: 0.01,
+            },
+            "explicit",
+        ),
+        (
             Event::Held {
                 step: text(),
                 at: vec![text()],

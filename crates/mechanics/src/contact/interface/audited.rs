@@ -51,7 +51,7 @@ impl Interface {
             at: state.placement(),
             frame: of,
             shifts: self.shifts_at_nodes(state.time),
-            ways: self.ways_at_nodes(),
+            ways: self.ways_at_nodes(state),
             partners: self.partners(),
         };
         Some(audit::contact(of, frame, &sides, &rules))
@@ -83,8 +83,19 @@ impl Interface {
         partners
     }
 
-    /// The longest way of the dynamic gaps around each node of the secondary side in the increment.
-    fn ways_at_nodes(&self) -> Vec<f64> {
+    /// The longest way of the dynamic gaps around each node of the secondary side in the increment; where impulses act on what
+    /// closes in the next short increment, how far anything goes in one.
+    fn ways_at_nodes(&self, state: &State) -> Vec<f64> {
+        let is_explicit = self.step.scheme.is_some_and(|of| of.explicit.is_some());
+        if let Some(rates) = state
+            .rates
+            .as_ref()
+            .filter(|_| is_explicit && self.is_hard())
+        {
+            let speeds = rates.velocity.iter().map(|v| v.norm());
+            let fastest = speeds.fold(0.0, f64::max);
+            return vec![fastest * self.duration; self.parts.pair.points.len()];
+        }
         if self.gaps.start.is_empty() {
             return Vec::new();
         }

@@ -47,6 +47,11 @@ impl Lents {
         self.of.get(row)?.as_ref()
     }
 
+    /// Whether no row lends anything.
+    pub fn is_empty(&self) -> bool {
+        self.of.iter().all(Option::is_none)
+    }
+
     /// (E2).
     pub fn effective(&self, row: usize, lambda: &dyn Fn(usize) -> Vec3) -> Vec3 {
         let own = lambda(row);

@@ -9,6 +9,7 @@ mod drift;
 mod dynamic_gap;
 mod freedom;
 mod history;
+mod impulsive;
 mod inherited;
 mod judged;
 mod lent;
@@ -34,7 +35,7 @@ pub use parts::{
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;
 use super::kernel::{Answer, Contact, Derivatives, Lambda, Laws, Past};
-use super::law::Multiplier;
+use super::law::{Impulse, Multiplier};
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
     Archive, ArchiveError, Dof, Elimination, Layout, Order, Sink, State, StepContext, TermError,
@@ -197,10 +198,18 @@ impl Interface {
 
     fn laws(&self) -> Laws<'_> {
         let friction = self.phase().and_then(|p| p.friction.as_ref());
+        let is_explicit = self.step.scheme.is_some_and(|of| of.explicit.is_some());
         Laws {
-            law: self.parts.law.as_ref(),
+            law: match is_explicit && self.is_hard() {
+                true => &Impulse,
+                false => self.parts.law.as_ref(),
+            },
             friction: friction.map(|(law, _)| law.as_ref()),
-            stick: friction.map_or(Stick::Stiffness(0.0), |(_, stick)| *stick),
+            stick: match friction.map(|(_, stick)| *stick) {
+                // what is stable must not fall as pressure rises
+                Some(Stick::Slip(_)) if is_explicit => Stick::Stiffness(self.parts.scale.penalty),
+                stick => stick.unwrap_or(Stick::Stiffness(0.0)),
+            },
             scale: &self.parts.scale,
             bond: self.parts.bond.is_some(),
             bond_tangential: self.parts.bond_tangential,

@@ -48,8 +48,12 @@ impl Term for Interface {
         if self.is_active() && !phase.step.vibrates && self.first_step.is_none() {
             self.first_step = Some(phase.step);
         }
-        match phase.increment {
-            Some(_) => self.begin_increment(from),
+        if phase.increment.is_some() {
+            self.begin_increment(from)?;
+        }
+        let is_explicit = phase.step.scheme.is_some_and(|of| of.explicit.is_some());
+        match self.not_explicit().filter(|_| is_explicit) {
+            Some(message) => Err(TermError::Refused { message }),
             None => Ok(()),
         }
     }
@@ -104,6 +108,7 @@ impl Term for Interface {
             choices: Some(self),
             stored: Some(self),
             audited: Some(self),
+            impulsive: self.parts.bond.is_none().then_some(self),
             ..Capabilities::default()
         }
     }

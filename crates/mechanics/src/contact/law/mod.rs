@@ -15,6 +15,7 @@
 //! | [`Uzawa`] | frozen | ⟨λ − εg⟩ | then λ ← p |
 //! | [`AugmentedNewton`] | unknown | ⟨λ − εg⟩ | (p − λ)/ε |
 //! | [`Lagrange`] | unknown | λ where λ > cg, else 0 | (⟨λ − cg⟩ − λ)/c |
+//! | `Impulse`, of explicit steps | given | ⟨λ⟩ | |
 //!
 //! Laws hold no state and have never heard of a degree of freedom. The sign of c makes ∂c/∂u the transpose of ∂r/∂λ.
 //! [`Lagrange`] is the primal-dual active set; its c > 0 changes the way to the solution and not the solution.
@@ -28,6 +29,7 @@ mod augmented;
 mod damping;
 mod definition;
 mod exponential;
+mod impulse;
 mod lagrange;
 mod penalty;
 mod secant;
@@ -41,6 +43,7 @@ pub use damping::Damping;
 use definition::TOUCH;
 pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};
 pub use exponential::Exponential;
+pub(super) use impulse::Impulse;
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;
 pub(super) use secant::secant;

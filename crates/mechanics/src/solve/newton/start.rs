@@ -3,7 +3,7 @@
 use super::goal::{Goal, Start};
 use super::{Failure, Newton};
 use crate::solve::equations::{Accuracy, Factor};
-use crate::system::{Dof, Order, State, System};
+use crate::system::{Dof, Order, State, System, TermError};
 use signorini_linear::EXACT;
 
 impl Newton {
@@ -111,6 +111,14 @@ impl Newton {
         self.assembler
             .update_interface(layout, elimination, &system.terms);
         Ok(())
+    }
+
+    /// Lets all terms look at the trial state as it is, and assembles their forces there.
+    pub fn evaluate(&mut self, system: &mut System) -> Result<(), TermError> {
+        self.between = None;
+        self.moved();
+        self.look(system, Order::Residual)?;
+        self.assemble(system, Order::Residual)
     }
 
     /// Forgets what is known of the trial state and of its equations.

@@ -423,6 +423,8 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
             | Event::Stabilized { .. }
             | Event::Held { .. }
             | Event::Solver { .. }
+            | Event::Explicit { .. }
+            | Event::Leap { .. }
             | Event::Vibrations { .. } => {}
         }
         Flow::Continue

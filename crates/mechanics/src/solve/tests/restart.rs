@@ -120,6 +120,8 @@ fn advance(model: &mut Model, stepper: &mut Stepper) -> Option<Leg> {
             | Event::Stabilized { .. }
             | Event::Held { .. }
             | Event::Solver { .. }
+            | Event::Explicit { .. }
+            | Event::Leap { .. }
             | Event::Vibrations { .. } => {}
         }
         Flow::Continue

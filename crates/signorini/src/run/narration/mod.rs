@@ -16,7 +16,7 @@ mod table;
 pub use page::Page;
 
 use super::limits::Stop;
-use super::news::{Detail, Facts, News, SLOW, Totals};
+use super::news::{Detail, Facts, News, Totals};
 use crate::text::{count, plural, short};
 use signorini_io::diagnostic::{Diagnostics, Severity};
 use signorini_io::writers::json::{Event, ModeSummary};
@@ -77,7 +77,7 @@ impl Narrator {
                 let mut lines = self.head();
                 let row = table::increment(self.page, step, record, frame, effort);
                 lines.push(line(row, Level::Normal));
-                if record.iterations >= SLOW
+                if table::is_slow(record, effort)
                     && let Some(worst) = &effort.worst
                     && !table::shows_worst(self.page)
                 {
@@ -102,6 +102,7 @@ impl Narrator {
                 | Event::Retry(_)
                 | Event::Followed { .. }
                 | Event::Stabilized { .. }
+                | Event::Explicit { .. }
                 | Event::Held { .. },
                 _,
             ) => {
@@ -308,6 +309,17 @@ fn remedy(page: Page, event: &Event) -> Option<String> {
                 "{start}  no equilibrium nearby: led to another by viscous forces, in {stages} stages; their work is \
                  {work:.3e}{part}"
             )
+        }
+        Event::Explicit {
+            step,
+            size,
+            mass_added,
+        } => {
+            let added = match 100.0 * mass_added {
+                0.0 => String::new(),
+                part => format!(", with {part:.2} % more mass"),
+            };
+            format!(" {step:<12}  short increments of at most {size:.3e}{added}")
         }
         Event::Held { step, at } => {
             let motions = match at.len() {

@@ -143,6 +143,11 @@ pub fn head(page: Page) -> String {
     row(page, |column, width| column.head(width).to_owned())
 }
 
+/// Whether the equations of an increment were hard to solve.
+pub fn is_slow(record: &IncrementRecord, effort: &Effort) -> bool {
+    record.iterations >= SLOW && effort.solves > 0
+}
+
 /// The row of an increment; one that was slow says so, where there is room.
 pub fn increment(
     page: Page,
@@ -172,7 +177,7 @@ pub fn increment(
         true => "  ← slow",
         false => "",
     };
-    match record.iterations >= SLOW {
+    match is_slow(record, effort) {
         true => text + mark,
         false => text,
     }

@@ -364,6 +364,11 @@ impl Observer for Recorder<'_> {
                 work,
                 external,
             } => self.stabilized([*step, *increment, *attempt], *stages, [*work, *external]),
+            Happening::Explicit {
+                step,
+                longest,
+                added,
+            } => self.explicit(*step, [*longest, *added]),
             Happening::Held { step, dofs } => self.held(*step, dofs),
             Happening::Solver {
                 step,

@@ -143,6 +143,16 @@ impl Recorder<'_> {
         self.tell(&event, Detail::None);
     }
 
+    pub(super) fn explicit(&mut self, step: usize, [size, mass_added]: [f64; 2]) {
+        let step = self.step_name(step);
+        let event = Event::Explicit {
+            step,
+            size,
+            mass_added,
+        };
+        self.tell(&event, Detail::None);
+    }
+
     pub(super) fn held(&mut self, step: usize, dofs: &[Dof]) {
         let setting = &self.setting;
         let name = |dof: Dof| setting.layout.name(dof);
