@@ -15,10 +15,11 @@
 //! Source: the laws of CalculiX are those of its User's Manual, sections on contact.
 
 use super::compat::Compat;
+use super::interaction::{Interaction, Law};
 use super::translation::Translation;
 use crate::case::{
-    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Method,
-    Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
+    Area, Basis, Contact, ContactChange, Damping, Enforcement, Features, Friction, Interference,
+    Method, Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -42,30 +43,6 @@ const WITHIN: f64 = 1e-3;
 const GAP: [f64; 2] = [1e12, 1e-3];
 /// How far nodes may be from the surface that they are tied to, in sizes of its elements.
 const TIE: f64 = 0.025;
-
-/// What happens between two surfaces.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Interaction {
-    pub law: Law,
-    friction: Option<[f64; 2]>,
-}
-
-/// What pressures and overclosures are.
-#[derive(Clone, Debug, Default)]
-pub(super) enum Law {
-    #[default]
-    Hard,
-    /// K, the tension at a distance, and the gap beyond which nothing acts; zero where they are not given.
-    Linear([f64; 3]),
-    Exponential {
-        c0: f64,
-        p0: f64,
-    },
-    /// Pressures and overclosures.
-    Table(Vec<[f64; 2]>),
-    /// K; zero where it is not given.
-    Tied(f64),
-}
 
 /// A line of *CONTACT PAIR.
 #[derive(Clone, Debug)]
@@ -103,88 +80,6 @@ impl Translation<'_> {
         let ties = self.cards("TIE").filter(|card| !card.has("CYCLICSYMMETRY"));
         ties.for_each(|card| self.tie(card));
         self.cards("GAP").for_each(|card| self.gaps(card));
-    }
-
-    fn interactions(&mut self) -> BTreeMap<String, Interaction> {
-        let mut all: BTreeMap<String, Interaction> = BTreeMap::new();
-        let mut open: Option<String> = None;
-        let deck = self.deck;
-        for card in &deck.statements {
-            match card.keyword.as_str() {
-                "SURFACEINTERACTION" => {
-                    open = self.need(card, "NAME").map(compared);
-                    if let Some(name) = &open {
-                        all.entry(name.clone()).or_default();
-                    }
-                }
-                "SURFACEBEHAVIOR" | "FRICTION" => {
-                    let Some(one) = open.as_ref().and_then(|name| all.get_mut(name)) else {
-                        let text = format!("*{} stands in no *SURFACE INTERACTION", card.title);
-                        self.error(&codes::CONTRADICTION, text, &card.place, "");
-                        continue;
-                    };
-                    if card.keyword == "FRICTION" {
-                        one.friction = Some(self.friction(card));
-                    } else {
-                        one.law = self.law(card);
-                    }
-                }
-                "STEP" => break,
-                _ => {}
-            }
-        }
-        all
-    }
-
-    /// The coefficient, and the slope of sticking or zero.
-    fn friction(&mut self, card: &Statement) -> [f64; 2] {
-        let row = card.rows().next().unwrap_or_default();
-        self.not_negative(card, &row);
-        self.reals(&row)
-    }
-
-    fn law(&mut self, card: &Statement) -> Law {
-        let given: Vec<_> = card.rows().collect();
-        let rows: Vec<[f64; 2]> = given.iter().map(|row| self.reals(row)).collect();
-        let [a, b] = rows.first().copied().unwrap_or_default();
-        let kind = card
-            .get("PRESSURE-OVERCLOSURE")
-            .map(compared)
-            .unwrap_or_default();
-        match kind.as_str() {
-            "" | "HARD" => Law::Hard,
-            "LINEAR" => {
-                if a <= 0.0 {
-                    let text = "the stiffness of LINEAR has to be positive";
-                    self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
-                }
-                let first = given.first().map(|row| self.reals(row));
-                Law::Linear(first.unwrap_or_default())
-            }
-            "EXPONENTIAL" => {
-                if a <= 0.0 || b <= 0.0 {
-                    let text = "c0 and p0 of EXPONENTIAL have to be positive";
-                    self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
-                }
-                Law::Exponential { c0: a, p0: b }
-            }
-            "TABULAR" => {
-                let rises =
-                    |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[0] > a[0] && b[1] > a[1]);
-                if rows.len() < 2 || !rows.windows(2).all(rises) {
-                    let text =
-                        "TABULAR needs two rows or more of pressures and overclosures that rise";
-                    self.error(&codes::NOT_INCREASING, text, &card.place, "");
-                }
-                Law::Table(rows)
-            }
-            "TIED" => Law::Tied(a),
-            _ => {
-                let text = format!("PRESSURE-OVERCLOSURE={kind} is not supported");
-                self.error(&codes::NOT_BUILT, text, &card.place, "");
-                Law::Hard
-            }
-        }
     }
 
     /// Young's modulus of the first material.
@@ -350,9 +245,19 @@ impl Translation<'_> {
             _ => by(stiffness),
         };
         let hard = PENALTY * self.first_modulus();
+        let damps = to.damping != [0.0; 2];
+        contact.damping = Damping {
+            normal: to.damping[0],
+            tangential: to.damping[1],
+            // of CalculiX, wherever the spring acts
+            pulls: exact && damps,
+        };
         contact.enforcement = match &to.law {
             Law::Hard if exact && method != Method::Mortar => penalty([hard, 0.0, 0.0]),
             Law::Linear(numbers) if exact => penalty(*numbers),
+            // multipliers do not yield, so that nothing damps
+            &Law::Linear([stiffness, ..]) if damps => by(stiffness),
+            Law::Hard if damps => Enforcement::Penalty(None),
             Law::Hard | Law::Linear(_) => Enforcement::Auto,
             &Law::Exponential { c0, p0 } => {
                 let mut law = Chosen::new("exponential", [("p0", p0), ("c0", c0)]);
@@ -399,11 +304,14 @@ impl Translation<'_> {
             let secondary = self.deck.mesh.sets.get(&contact.secondary.value);
             let by_nodes = secondary.is_some_and(|set| !set.nodes.is_empty());
             if method == Method::NodeToSegment && by_nodes {
-                // CalculiX expands planes into space, where these nodes are none of the faces: it takes those opposite
-                contact.area = match self.case.model.space.ndim() {
-                    2 => Area::Opposite,
-                    _ => Area::Adjacent,
-                };
+                // CalculiX expands planes into space, where these nodes are none of the faces: it takes those opposite, as of
+                // nodes that belong to no element
+                let in_plane = self.case.model.space.ndim() == 2;
+                contact.area =
+                    match in_plane || secondary.is_some_and(|set| self.are_bare(&set.nodes)) {
+                        true => Area::Opposite,
+                        false => Area::Adjacent,
+                    };
             }
             if !matches!(contact.enforcement, Enforcement::Auto) {
                 contact.per = Some(Per::Area);
@@ -412,6 +320,13 @@ impl Translation<'_> {
         // tied sides do not slide
         let rubs = to.friction.filter(|_| contact.tied.is_none());
         contact.friction = rubs.and_then(|given| self.rubbing(given));
+    }
+
+    /// Whether nodes belong to no element.
+    fn are_bare(&self, nodes: &[NodeId]) -> bool {
+        let mesh = &self.deck.mesh;
+        let mut cells = mesh.cells(mesh.dim());
+        !cells.any(|cell| mesh.cell(cell).iter().any(|node| nodes.contains(node)))
     }
 
     /// The slope of sticking.

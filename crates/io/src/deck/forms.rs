@@ -138,6 +138,7 @@ fn property(card: &Statement) -> Option<Form> {
     let terms = card.peek("N").map_or(Some(1), |n| n.trim().parse().ok());
     let terms: Option<usize> = terms.filter(|terms| (1..=6).contains(terms));
     Some(match card.keyword.as_str() {
+        "CONTACTDAMPING" => each(ONE, (1, 1), "pressure over velocity"),
         "DENSITY" => each(SOME, (1, 2), "density, temperature"),
         "DEFORMATIONPLASTICITY" => each(SOME, (5, 6), "E, nu, s0, n, alpha, temperature"),
         "ELASTIC" if kind.is_empty() || "ISOTROPIC".starts_with(&kind) => {

@@ -12,7 +12,7 @@
 //!
 //! Overlaps at the start are without strain unless data say otherwise, as by default in Abaqus.
 
-use super::contact::{Interaction, Law};
+use super::interaction::{Interaction, Law};
 use super::translation::Translation;
 use crate::case::{
     ANY, Contact, Excluded, General, GeneralPair, Interference, Method, Name, Start,

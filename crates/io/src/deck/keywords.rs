@@ -77,7 +77,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "CONTACT CONTROLS ASSIGNMENT",
         "contact needs no controls here",
     ),
-    ignored("CONTACT DAMPING", "only of motion; refused with DYNAMIC"),
+    read("CONTACT DAMPING", "TANGENT FRACTION; implicit steps"),
     read("CONTACT EXCLUSIONS", "surfaces that do not touch"),
     ignored("CONTACT FILE", "all fields of contact are written anyway"),
     read("CONTACT FORMULATION", "TYPE=MASTER SLAVE ROLES"),
@@ -109,7 +109,7 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("CREEP", "creep is not built"),
     refused("CYCLIC HARDENING", "combined hardening is not built"),
     read("CYCLIC SYMMETRY MODEL", "N, TIE, of matching sides"),
-    ignored("DAMPING", "only of motion; refused with DYNAMIC"),
+    read("DAMPING", "ALPHA; of motion"),
     read("DEFORMATION PLASTICITY", "at one temperature"),
     read("DENSITY", "constant"),
     ignored(
@@ -126,7 +126,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read("DLOAD", "P and P1 to P6, GRAV, CENTRIF; AMPLITUDE, OP"),
     read("DSLOAD", "P; AMPLITUDE, OP"),
-    read("DYNAMIC", "implicit: DIRECT, ALPHA"),
+    read("DYNAMIC", "DIRECT, ALPHA, EXPLICIT"),
     ignored("EL FILE", "all fields are written anyway"),
     read(
         "EL PRINT",

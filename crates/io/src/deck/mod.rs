@@ -32,6 +32,7 @@ mod contact;
 mod forms;
 mod frequency;
 mod general;
+mod interaction;
 mod keywords;
 mod load;
 mod material;

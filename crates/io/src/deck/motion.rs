@@ -1,11 +1,12 @@
-//! Motions in time: *DYNAMIC, and velocities at the start.
+//! Motions in time: *DYNAMIC, *DAMPING, and velocities at the start.
 //!
 //! ALPHA is that of Hilber, Hughes and Taylor, −0.05 unless the card says otherwise, between −1/3 and 0. With contact it becomes the
 //! generalized-α method of the same damping of the highest frequencies, `ρ = (1 + α)/(1 − α)`: by ALPHA itself, contact flickers
 //! and may gain energy.
 
+use super::compat::Compat;
 use super::translation::Translation;
-use crate::case::{DynamicMethod, Dynamics, ERROR_TOL, IMPACT_STEP, Step, VelocityAt};
+use crate::case::{DynamicMethod, Dynamics, ERROR_TOL, IMPACT_STEP, SAFETY, Step, VelocityAt};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use std::collections::BTreeMap;
@@ -16,13 +17,18 @@ const ALPHA: f64 = -0.05;
 impl Translation<'_> {
     /// Makes a step dynamic.
     pub fn dynamic(&mut self, card: &Statement, step: &mut Step) {
-        for keyword in ["DAMPING", "CONTACTDAMPING", "MODALDAMPING"] {
-            let place = self.cards(keyword).next().map(|card| card.place.clone());
-            if let Some(place) = place {
-                let remark = "write  damping = { mass = }  in the [material] of a case";
-                let text = "damping of decks is not supported in dynamic steps";
-                self.error(&codes::NOT_BUILT, text, &place, remark);
-            }
+        self.damping(card.has("EXPLICIT"));
+        if card.has("EXPLICIT") {
+            step.dynamics = Some(Dynamics {
+                method: DynamicMethod::Explicit {
+                    safety: SAFETY,
+                    scaling: None,
+                },
+                redistributed: Spanned::new(false, card.place.clone()),
+                error_tol: ERROR_TOL,
+                impact_step: IMPACT_STEP,
+            });
+            return;
         }
         let given = card.get("ALPHA").map(|text| text.trim().parse::<f64>());
         let alpha = match given {
@@ -51,6 +57,57 @@ impl Translation<'_> {
             error_tol: ERROR_TOL,
             impact_step: IMPACT_STEP,
         });
+    }
+
+    /// *DAMPING: of the material that it stands in, or of all; of CalculiX always of all.
+    fn damping(&mut self, is_explicit: bool) {
+        if let Some(place) = self
+            .cards("MODALDAMPING")
+            .next()
+            .map(|card| card.place.clone())
+        {
+            let text = "*MODAL DAMPING is not supported in dynamic steps";
+            self.error(&codes::NOT_BUILT, text, &place, "write *DAMPING, ALPHA=");
+        }
+        let mut material: Option<String> = None;
+        let deck = self.deck;
+        for card in &deck.statements {
+            match card.keyword.as_str() {
+                "MATERIAL" => material = card.peek("NAME").map(compared),
+                "DAMPING" => {
+                    let [mass, stiffness] = ["ALPHA", "BETA"].map(|key| self.damped(card, key));
+                    if stiffness > 0.0 && is_explicit {
+                        let text =
+                            "BETA of *DAMPING is left out in explicit steps, as CalculiX does";
+                        self.note(text.to_owned(), &card.place);
+                    } else if stiffness > 0.0 {
+                        let text = "BETA of *DAMPING is not supported";
+                        let remark =
+                            "damping over the stiffness is not built; ALPHA is that over the mass";
+                        self.error(&codes::NOT_BUILT, text, &card.place, remark);
+                    }
+                    let own = material.as_ref().filter(|_| self.compat != Compat::Ccx);
+                    let damped = self.case.materials.iter_mut();
+                    let damped =
+                        damped.filter(|one| own.is_none_or(|own| compared(&one.name) == *own));
+                    damped.for_each(|one| one.damping = mass);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// A number of *DAMPING, from 0 on.
+    fn damped(&mut self, card: &Statement, key: &str) -> f64 {
+        match card.get(key).map(|text| text.trim().parse::<f64>()) {
+            None => 0.0,
+            Some(Ok(value)) if value.is_finite() && value >= 0.0 => value,
+            Some(_) => {
+                let text = format!("{key} of *DAMPING is no number from 0 on");
+                self.error(&codes::WRONG_TYPE, text, &card.place, "");
+                0.0
+            }
+        }
     }
 
     /// *INITIAL CONDITIONS, TYPE=VELOCITY: component by component, the last line that names a node and a component.

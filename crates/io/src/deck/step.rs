@@ -15,6 +15,9 @@ use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// How often an explicit step that does not say so writes results.
+const INTERVALS: u64 = 20;
+
 /// The course of a component.
 #[derive(Clone, Debug, PartialEq)]
 enum Course {
@@ -190,7 +193,13 @@ impl Translation<'_> {
         }
         let limit = cards.first().and_then(|head| head.get("INC")).map(compared);
         let limit = limit.and_then(|text| text.parse().ok()).unwrap_or(100);
-        step.increments = if card.has("DIRECT") {
+        let is_explicit = card.keyword == "DYNAMIC" && card.has("EXPLICIT");
+        step.increments = if is_explicit && self.first_time(card).is_none() {
+            Increments::Fixed(INTERVALS)
+        } else if is_explicit {
+            // what is stable is shorter, as a rule
+            Increments::Fixed((step.duration / initial).ceil().clamp(1.0, 1e6) as u64)
+        } else if card.has("DIRECT") {
             let count = (step.duration / initial).round().clamp(1.0, 1e6);
             if (count * initial - step.duration).abs() > 1e-6 * step.duration {
                 self.warn(
@@ -208,6 +217,13 @@ impl Translation<'_> {
                 count_max: limit,
             }
         };
+    }
+
+    /// The first increment of a procedure, where it is given.
+    fn first_time(&mut self, card: &Statement) -> Option<f64> {
+        let row = card.rows().next().unwrap_or_default();
+        let field = row.first().filter(|field| !field.text.is_empty())?;
+        Some(self.real(Some(field))).filter(|time| *time > 0.0)
     }
 
     /// Rigid bodies of elements are free in decks until something holds them; in cases they are held.

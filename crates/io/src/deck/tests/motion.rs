@@ -1,7 +1,7 @@
 //! *DYNAMIC and velocities at the start.
 
 use super::*;
-use crate::case::{DynamicMethod, Increments, SetContent};
+use crate::case::{DynamicMethod, Enforcement, Increments, SetContent};
 
 fn dynamic(cards: &str, parameters: &str) -> String {
     let step =
@@ -75,15 +75,75 @@ fn velocities_at_the_start_add_up_component_by_component() {
     assert_eq!(of(7), [2.0, 0.0, 1.0]);
 }
 
+/// An explicit step writes results where its first increment says, else twenty times; BETA is left out in it.
+#[test]
+fn explicit_steps_have_intervals() {
+    let of = |time: &str| {
+        let deck = dynamic("*DAMPING, ALPHA=2., BETA=1E-3\n", ", EXPLICIT");
+        let read = translated(&deck.replace("0.1, 2.", time), Compat::None).unwrap();
+        let said = read.found.plain();
+        assert!(said.contains("BETA of *DAMPING is left out"), "{said}");
+        let step = read.case.steps.into_iter().next().unwrap();
+        let method = step.dynamics.unwrap().method;
+        assert!(matches!(
+            method,
+            DynamicMethod::Explicit { scaling: None, .. }
+        ));
+        assert_eq!(read.case.materials[0].damping, 2.0);
+        (step.duration, step.increments)
+    };
+    assert_eq!(of("0.1, 2."), (2.0, Increments::Fixed(20)));
+    assert_eq!(of("0.3, 2."), (2.0, Increments::Fixed(7)));
+    assert_eq!(of(", 2."), (2.0, Increments::Fixed(20)));
+}
+
+/// Damping is that of the material in which it stands; with `--compat ccx` of all.
+#[test]
+fn damping_is_that_of_its_material() {
+    let deck = dynamic("", "").replace(
+        "*DENSITY\n2.\n",
+        "*DENSITY\n2.\n*MATERIAL, NAME=N\n*ELASTIC\n1., 0.\n*DAMPING, ALPHA=3.\n",
+    );
+    for (compat, wanted) in [(Compat::None, [0.0, 3.0]), (Compat::Ccx, [3.0, 3.0])] {
+        let read = translated(&deck, compat).unwrap();
+        let damping: Vec<f64> = read.case.materials.iter().map(|m| m.damping).collect();
+        assert_eq!(damping, wanted);
+    }
+}
+
+#[test]
+fn contacts_that_damp_have_a_penalty() {
+    let contact = "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e4\n\
+                   *CONTACT DAMPING, TANGENT FRACTION=0.5\n2.5e-4\n\
+                   *CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nLID, SOLE\n";
+    for (compat, pulls) in [(Compat::None, false), (Compat::Ccx, true)] {
+        let read = translated(&dynamic(contact, ""), compat).unwrap();
+        let one = &read.case.contacts[0];
+        assert_eq!(
+            (one.damping.normal, one.damping.tangential),
+            (2.5e-4, 1.25e-4)
+        );
+        assert_eq!(one.damping.pulls, pulls);
+        let Enforcement::Penalty(Some(penalty)) = &one.enforcement else {
+            panic!("{:?}", one.enforcement);
+        };
+        assert_eq!(**penalty, 1e4);
+    }
+}
+
 #[test]
 fn what_dynamic_decks_cannot_have_is_refused() {
     for (cards, parameters, expected) in [
-        ("", ", EXPLICIT", "EXPLICIT of *DYNAMIC is not supported"),
         ("", ", ALPHA=much", "ALPHA of *DYNAMIC is no number"),
         (
-            "*DAMPING, ALPHA=2.\n",
+            "*DAMPING, ALPHA=2., BETA=1E-3\n",
             "",
-            "damping of decks is not supported",
+            "BETA of *DAMPING is not supported",
+        ),
+        (
+            "*DAMPING, ALPHA=-2.\n",
+            "",
+            "ALPHA of *DAMPING is no number from 0 on",
         ),
         (
             "*INITIAL CONDITIONS, TYPE=VELOCITY\nTOP, 4, 1.\n",
