@@ -1,12 +1,13 @@
 //! Contact without penetration in explicit steps: impulses that leave rows closed at the end of the next short increment.
 //!
 //! ```text
-//! r = g/h + G v_½        P ← max(0, P − r/W)        W = G M⁻¹ b        v_½ ← v_½ + M⁻¹ b ΔP          (E1)
+//! r = G v_½ − v̄        P ← max(0, P − r/W)        W = G M⁻¹ b        v_½ ← v_½ + M⁻¹ b ΔP             (E1)
+//! v̄ = −g/h, or −e G v_½ as it was before all impulses where that is more, of rows that close          (E2)
 //! |P_t| ≤ limit(P)       P_t ← P_t − (∂e/∂d v_½)/W_t, cut off
 //! ```
 //!
 //! row after row in their order, until no velocity changes. The force is `P/h`. Each impact takes the energy of the nodes that meet,
-//! as that of a plastic impact.
+//! but for the coefficient of restitution e: it is that of rigid bodies, for nodes of deformable ones are stopped by what is behind them.
 //!
 //! Sources: Carpenter, Taylor and Katona, Int. J. Numer. Meth. Eng. 32, 1991; Jean, CMAME 177, 1999 (row after row).
 
@@ -54,6 +55,9 @@ struct Row {
     /// Its number, and the place of its contact among the terms.
     of: (usize, usize),
     rubs: bool,
+    restitution: f64,
+    /// The velocity of the gap that impulses lead to.
+    target: f64,
     impulse: f64,
     shear: Vec3,
 }
@@ -98,6 +102,7 @@ impl Impulses {
         let Acts::Hard {
             multiplier,
             count,
+            restitution,
             friction,
         } = row.acts
         else {
@@ -162,6 +167,8 @@ impl Impulses {
             slips: slips / (system.layout.ndim() - 1).max(1) as f64,
             of: (term, row.number),
             rubs: friction.is_some(),
+            restitution,
+            target: 0.0,
             impulse: 0.0,
             shear: Vec3::ZERO,
         });
@@ -176,6 +183,16 @@ impl Impulses {
     /// contact, and changes the rates accordingly. Forces act for a `time`.
     pub fn solve(&mut self, system: &System, [h, time]: [f64; 2], rates: &mut [f64]) {
         let Self { rows, columns, .. } = self;
+        for row in &mut *rows {
+            let columns = columns.get(row.first..row.end).unwrap_or_default();
+            let at = |dof: Dof| rates.get(dof as usize).copied().unwrap_or_default();
+            let before: f64 = columns.iter().map(|of| of.gradient * at(of.dof)).sum();
+            let closes = -row.gap / h;
+            row.target = match before < closes {
+                true => closes.max(-row.restitution * before),
+                false => closes,
+            };
+        }
         let fastest = rates
             .iter()
             .fold(0.0, |most: f64, rate| most.max(rate.abs()));
@@ -185,7 +202,7 @@ impl Impulses {
                 let columns = &columns[row.first..row.end];
                 let at = |dof: Dof| rates.get(dof as usize).copied().unwrap_or_default();
                 let closing: f64 = columns.iter().map(|of| of.gradient * at(of.dof)).sum();
-                let next = (row.impulse - (row.gap / h + closing) / row.answer).max(0.0);
+                let next = (row.impulse - (closing - row.target) / row.answer).max(0.0);
                 let change = next - row.impulse;
                 row.impulse = next;
                 let mut along = Vec3::ZERO;

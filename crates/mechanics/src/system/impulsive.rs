@@ -51,6 +51,8 @@ pub enum Acts<'a> {
         multiplier: Dof,
         /// One: a pressure. As many as axes: a traction on the primary side.
         count: usize,
+        /// The velocity after an impact over that before it.
+        restitution: f64,
         /// Friction, where there is any.
         friction: Option<Rubbing<'a>>,
     },

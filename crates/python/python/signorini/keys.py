@@ -560,6 +560,11 @@ class Contact(Table):
         "`\"auto\"` or number > 0.0",
         default="auto",
     )
+    restitution: Key[float, float] = Key(
+        "The velocity with which points leave an impact, over that with which they came: of multipliers, in explicit steps",
+        "number ≥ 0.0, ≤ 1.0",
+        default=0.0,
+    )
     rule: One[ContactRule] = One(ContactRule, "Points of gauss-point, along each direction of a facet", "a table")
     secondary: Key[str | None, str] = Key(
         "The side that carries the points: the finer, softer or more curved one",
@@ -2285,6 +2290,7 @@ if TYPE_CHECKING:
         "pairs": Literal["nearest", "order"],
         "passes": int,
         "reach": Literal["auto"] | float,
+        "restitution": float,
         "rule": ContactRule | Mapping[str, Any],
         "self_": bool,
         "sliding": Literal["auto", "finite", "increment", "small"],

@@ -96,6 +96,7 @@ fn contact(
             tangential: part.damping.tangential,
             pulls: part.damping.pulls,
         },
+        restitution: *part.restitution,
         sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {

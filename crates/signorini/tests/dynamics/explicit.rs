@@ -164,7 +164,7 @@ fn a_pendulum_is_back_after_its_period() {
     assert!(errors[1] < 0.3 * errors[0], "{errors:?}");
 }
 
-/// A rigid block falls flat on springs: `π √(m/k)`, and it rises as fast as it fell. By impulses it stays down.
+/// A rigid block falls flat on springs: `π √(m/k)`, and it rises as fast as it fell. By impulses it leaves with its coefficient of restitution.
 #[test]
 fn a_block_bounces_as_a_mass_on_a_spring() {
     let (m, v, k) = (2.0_f64, 3.0, 5000.0_f64);
@@ -183,13 +183,20 @@ fn a_block_bounces_as_a_mass_on_a_spring() {
         "enforcement = { lagrange = {} }",
     );
     assert!(hard != text);
-    let got = solved(&hard);
-    assert!(
-        got["block.velocity_y"][9].abs() < 1e-9,
-        "{:?}",
-        got["block.velocity_y"]
-    );
-    assert!(got["block.displacement_y"][9].abs() < 1e-9);
+    for restitution in [0.0, 0.5, 1.0] {
+        let text = hard.replace(
+            "friction = 0.3\n",
+            &format!("friction = 0.3\nrestitution = {restitution:?}\n"),
+        );
+        let got = solved(&text);
+        let rebound = got["block.velocity_y"][9] / v;
+        assert!(
+            (rebound - restitution).abs() < 1e-9,
+            "{restitution}: {rebound}"
+        );
+        let kept = got["energy.kinetic"][9] / (0.5 * m * v * v);
+        assert!((kept - restitution * restitution).abs() < 1e-9);
+    }
 }
 
 /// A run that is stopped and resumed at any increment, and one on another number of threads, has the same bits.
@@ -303,6 +310,20 @@ fn what_explicit_steps_cannot_have_is_refused() {
         said.contains("`safety` means nothing with  method = \"generalized-alpha\""),
         "{said}"
     );
+    let bounces = "restitution = 0.5\n[initial]";
+    let said = refusal(
+        &bar.clone()
+            .penalty(1.0)
+            .text()
+            .replace("[initial]", bounces),
+    );
+    assert!(
+        said.contains("`restitution` goes with multipliers"),
+        "{said}"
+    );
+    let implicit = Bar::default().text().replace("[initial]", bounces);
+    let said = refusal(&implicit);
+    assert!(said.contains("has no impulses"), "{said}");
     let damped = bar.clone().penalty(1.0).text();
     let damped = damped.replace("[initial]", "damping = { normal = 1.0 }\n[initial]");
     let error = run(&mut model("damped", &damped, &[])).error.unwrap();

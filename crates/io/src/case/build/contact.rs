@@ -37,6 +37,7 @@ impl Builder<'_> {
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
             damping: damping(fields.table("damping")),
+            restitution: Spanned::new(fields.number("restitution"), fields.place("restitution")),
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,
                 "small" => Sliding::Small,
@@ -193,6 +194,14 @@ impl Builder<'_> {
             contact.enforcement,
             Enforcement::Lagrange | Enforcement::Augmented { .. }
         );
+        if *contact.restitution > 0.0 && !exact {
+            self.error(
+                &codes::CONTRADICTION,
+                "`restitution` goes with multipliers, whose impulses it is of",
+                &fields.place("restitution"),
+                "delete it, or write  enforcement = { lagrange = {} }",
+            );
+        }
         let damps = contact.damping.normal > 0.0 || contact.damping.tangential > 0.0;
         if damps && (exact || contact.tied.is_some()) {
             self.error(

@@ -35,6 +35,8 @@ pub struct Contact {
     pub remembers_traction: bool,
     /// What damps closed points in dynamic steps.
     pub damping: Damping,
+    /// The velocity with which points leave an impact, over that with which they came, where impulses act.
+    pub restitution: Spanned<f64>,
     /// How far points slide.
     pub sliding: Sliding,
     /// On what of the primary side points may rest.
@@ -75,6 +77,7 @@ impl Contact {
             friction: None,
             remembers_traction: false,
             damping: Damping::default(),
+            restitution: 0.0.into(),
             sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,

@@ -49,6 +49,7 @@ pub(super) fn contact(contact: &Contact) -> Entries {
                 ("pulls", contact.damping.pulls.into()),
             ]),
         ),
+        ("restitution", (*contact.restitution).into()),
         ("sliding", sliding.into()),
         ("features", features.into()),
         ("tied", contact.tied.as_ref().map_or(false.into(), tied)),

@@ -77,6 +77,16 @@ pub(super) static CONTACT: Table = Table {
         .or(Default::Text("place")),
         key("damping", Shape::Table(&DAMPING), DAMPING.doc).hints(&["viscosity"]),
         key(
+            "restitution",
+            Shape::Number(Bounds {
+                from: Some(0.0),
+                to: Some(1.0),
+                ..FREE
+            }),
+            "the velocity with which points leave an impact, over that with which they came: of multipliers, in explicit steps",
+        )
+        .or(Default::Number(0.0)),
+        key(
             "sliding",
             Shape::Choice(&[word("auto"), word("finite"), word("increment"), word("small")]),
             "how far points slide: any way; or each keeps the tangent plane it meets at the start of the increment, or first. auto: \"small\" in linear geometry, else \"finite\"",

@@ -88,6 +88,7 @@ impl Impulsive for Interface {
                         .layout
                         .multiplier(self.parts.first_multiplier + self.nmultiplier() * number),
                     count: self.nmultiplier(),
+                    restitution: self.parts.restitution,
                     friction: laws.friction.map(|_| Rubbing {
                         slip: &row.sliding.dslip,
                         operator: &row.sliding.operator,

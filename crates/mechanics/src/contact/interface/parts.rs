@@ -104,6 +104,8 @@ pub struct InterfaceParts {
     pub allowance: Allowance,
     /// What damps the motion of closed rows, of laws without a multiplier.
     pub damping: Damping,
+    /// The velocity of rows that leave an impact over that with which they came, where impulses act.
+    pub restitution: f64,
     /// The surfaces that straight facets were cut from, where gaps are measured between these.
     pub bend: Option<Bend>,
     /// The first multiplier, where the law solves for them: one for each row, and with friction, or joined, one for each
@@ -152,6 +154,7 @@ impl InterfaceParts {
             shifts: Vec::new(),
             allowance: Allowance::default(),
             damping: Damping::default(),
+            restitution: 0.0,
             bend: None,
             first_multiplier: 0,
             gap_tolerance: 1e-6,

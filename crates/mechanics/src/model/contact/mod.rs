@@ -213,6 +213,7 @@ impl Context<'_> {
             bend,
             allowance: start::allowance(part),
             damping: part.damping,
+            restitution: part.restitution,
             discretization: sides.discretization,
             pair: sides.pair,
             law: sides.law,

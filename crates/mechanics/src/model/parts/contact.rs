@@ -257,6 +257,8 @@ pub struct ContactPart {
     pub measure: Option<Measure>,
     /// What damps the motion of closed points in dynamic steps.
     pub damping: Damping,
+    /// The velocity with which points leave an impact, over that with which they came, where impulses act.
+    pub restitution: f64,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -326,6 +328,7 @@ impl ContactPart {
             enforcement: Enforcement::Auto,
             measure: None,
             damping: Damping::default(),
+            restitution: 0.0,
             friction: None,
             remembers_traction: false,
             sliding: SlidingRange::default(),
