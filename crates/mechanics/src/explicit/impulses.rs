@@ -1,12 +1,12 @@
 //! Contact without penetration in explicit steps: impulses that leave rows closed at the end of the next short increment.
 //!
 //! ```text
-//! r = G v_½ − v̄        P ← max(0, P − r/W)        W = G M⁻¹ b        v_½ ← v_½ + M⁻¹ b ΔP             (E1)
-//! v̄ = −g/h, or −e G v_½ as it was before all impulses where that is more, of rows that close          (E2)
-//! |P_t| ≤ limit(P)       P_t ← P_t − (∂e/∂d v_½)/W_t, cut off
+//! r = b·v_½ − v̄        P ← max(0, P − r/W)        W = b M⁻¹ b        v_½ ← v_½ + M⁻¹ b ΔP            (E1)
+//! v̄ = −g/h, or −e b·v_½ as it was before all impulses where that is more, of rows that close         (E2)
+//! |P_t| ≤ limit(P)      P_t ← P_t − P Bᵀ v_½/W_t, cut off
 //! ```
 //!
-//! row after row in their order, until no velocity changes. The force is `P/h`. Each impact takes the energy of the nodes that meet,
+//! row after row in their order, until no velocity changes, with the weights b along which the force does its work. The force is `P/h`. Each impact takes the energy of the nodes that meet,
 //! but for the coefficient of restitution e: it is that of rigid bodies, for nodes of deformable ones are stopped by what is behind them.
 //!
 //! Sources: Carpenter, Taylor and Katona, Int. J. Numer. Meth. Eng. 32, 1991; Jean, CMAME 177, 1999 (row after row).
@@ -23,7 +23,7 @@ const SETTLED: f64 = 1e-12;
 #[derive(Default)]
 pub struct Impulses {
     rows: Vec<Row>,
-    /// Of all rows one after the other: unknown, G, b, M⁻¹ b; and the same of slips.
+    /// Of all rows one after the other: unknown, b, M⁻¹ b; and the same of slips.
     columns: Vec<Column>,
     /// Unknowns that bodies answer with.
     scratch: Vec<Column>,
@@ -33,10 +33,8 @@ pub struct Impulses {
 #[derive(Clone, Copy, Default)]
 struct Column {
     dof: Dof,
-    gradient: f64,
     weight: f64,
     answer: f64,
-    slip: Vec3,
     operator: Vec3,
     answers: Vec3,
 }
@@ -111,13 +109,10 @@ impl Impulses {
         let first = self.columns.len();
         for (k, &dof) in row.dofs.iter().enumerate() {
             let at = |values: &[f64]| values.get(k).copied().unwrap_or_default();
-            let (gradient, weight) = (at(row.gradient), at(row.weights));
-            let [slip, operator] = match &friction {
-                Some(of) => [of.slip, of.operator].map(|of| of.get(k).copied().unwrap_or_default()),
-                None => [Vec3::ZERO; 2],
-            };
-            let is_idle =
-                gradient == 0.0 && weight == 0.0 && slip == Vec3::ZERO && operator == Vec3::ZERO;
+            let weight = at(row.weights);
+            let operator = friction.and_then(|of| of.operator.get(k).copied());
+            let operator = operator.unwrap_or_default();
+            let is_idle = weight == 0.0 && operator == Vec3::ZERO;
             if dof == NO_DOF || is_idle {
                 continue;
             }
@@ -139,16 +134,14 @@ impl Impulses {
                         |at| first + at,
                     );
                     let column = &mut self.columns[at];
-                    column.gradient += c * gradient;
                     column.weight += c * weight;
-                    column.slip += slip * c;
                     column.operator += operator * c;
                 });
         }
         answers.find(&mut self.columns, first, &mut self.scratch);
         let columns = &self.columns[first..];
-        let answer: f64 = columns.iter().map(|of| of.gradient * of.answer).sum();
-        let slips: f64 = columns.iter().map(|of| of.slip.dot(of.answers)).sum();
+        let answer: f64 = columns.iter().map(|of| of.weight * of.answer).sum();
+        let slips: f64 = columns.iter().map(|of| of.operator.dot(of.answers)).sum();
         if answer <= 0.0 {
             // nothing of it moves freely
             self.columns.truncate(first);
@@ -163,8 +156,8 @@ impl Impulses {
             first,
             end: self.columns.len(),
             answer,
-            // along two directions of the three; one in the plane
-            slips: slips / (system.layout.ndim() - 1).max(1) as f64,
+            // the mean over all directions
+            slips: slips / system.layout.ndim().max(1) as f64,
             of: (term, row.number),
             rubs: friction.is_some(),
             restitution,
@@ -186,7 +179,7 @@ impl Impulses {
         for row in &mut *rows {
             let columns = columns.get(row.first..row.end).unwrap_or_default();
             let at = |dof: Dof| rates.get(dof as usize).copied().unwrap_or_default();
-            let before: f64 = columns.iter().map(|of| of.gradient * at(of.dof)).sum();
+            let before: f64 = columns.iter().map(|of| of.weight * at(of.dof)).sum();
             let closes = -row.gap / h;
             row.target = match before < closes {
                 true => closes.max(-row.restitution * before),
@@ -201,13 +194,14 @@ impl Impulses {
             for row in &mut *rows {
                 let columns = &columns[row.first..row.end];
                 let at = |dof: Dof| rates.get(dof as usize).copied().unwrap_or_default();
-                let closing: f64 = columns.iter().map(|of| of.gradient * at(of.dof)).sum();
+                let closing: f64 = columns.iter().map(|of| of.weight * at(of.dof)).sum();
                 let next = (row.impulse - (closing - row.target) / row.answer).max(0.0);
                 let change = next - row.impulse;
                 row.impulse = next;
                 let mut along = Vec3::ZERO;
                 if row.rubs && row.slips > 0.0 {
-                    let slip: Vec3 = columns.iter().map(|of| of.slip * at(of.dof)).sum();
+                    let slip: Vec3 = columns.iter().map(|of| of.operator * at(of.dof)).sum();
+                    let slip = slip - row.normal * row.normal.dot(slip);
                     let trial = row.shear - slip / row.slips;
                     let most = row.most(system, time);
                     let size = trial.norm();

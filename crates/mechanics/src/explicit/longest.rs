@@ -7,7 +7,8 @@
 //! with the stiffness `K_e` of elements, each with a part of the mass of its nodes that goes by its part of their stiffness, and
 //! the rows of contacts and springs, node by node. Nothing is assembled. Both parts are bounds: the Rayleigh quotient of a sum is at
 //! most the sum of the largest, whatever parts the mass is taken in, and unknowns that follow others, or are held, only lower it.
-//! Rows that are open count as closed as soon as they can close before the next look.
+//! Elements whose material has yielded are as stiff as at the start when they are unloaded: of both, and what they are shortened by
+//! counts. Rows that are open count as closed as soon as they can close before the next look.
 //!
 //! Sources: Hughes, The Finite Element Method, 1987, section 9.1; Fried, J. Sound Vib. 22, 1972 (elements bound the whole).
 
@@ -79,6 +80,14 @@ impl Elements {
     }
 }
 
+/// The largest eigenvalues of elements at the start, chunk by chunk.
+#[derive(Default)]
+pub struct Initial(Vec<Vec<f64>>);
+
+/// Adds the elements of a chunk: its number among all, the term, its number there.
+type Evaluate<'a> =
+    dyn Fn(usize, &dyn Term, usize, &mut Work, &mut Elements) -> Result<(), TermError> + Sync + 'a;
+
 /// What one thread needs.
 #[derive(Default)]
 struct Scratch {
@@ -89,10 +98,17 @@ struct Scratch {
 
 impl Bound<'_> {
     /// The square of a frequency (radian per time) that none exceeds in a state, with rows of contacts up to `reach` closed.
-    pub fn frequency_squared(&self, state: &State, reach: f64) -> Result<f64, TermError> {
+    pub fn frequency_squared(
+        &self,
+        state: &State,
+        reach: f64,
+        initial: &Initial,
+    ) -> Result<f64, TermError> {
         let masses = self.masses();
-        let diagonal = self.diagonal(state)?;
-        let of_elements = self.of_elements(state, &masses, &diagonal)?;
+        let diagonal = self.diagonal(&|_, term, chunk, work, out| {
+            term.evaluate(chunk, state, Order::Tangent, work, out)
+        })?;
+        let of_elements = self.of_elements(state, &masses, &diagonal, initial)?;
         let of_rows = self.of_rows(state, &masses, reach)?;
         Ok(of_elements + of_rows)
     }
@@ -101,7 +117,9 @@ impl Bound<'_> {
     /// proportion of `Σ_j |K_ij|` are those that its largest eigenvalue asks for.
     pub fn lacking(&self, state: &State, most: f64) -> Result<Vec<f64>, TermError> {
         let masses = self.masses();
-        let diagonal = self.diagonal(state)?;
+        let diagonal = self.diagonal(&|_, term, chunk, work, out| {
+            term.evaluate(chunk, state, Order::Tangent, work, out)
+        })?;
         let layout = &self.system.layout;
         let mut lacking = vec![0.0; layout.nnode()];
         let mut scratch = Scratch::default();
@@ -196,13 +214,13 @@ impl Bound<'_> {
     }
 
     /// Σ_e K_e,ii of elements.
-    fn diagonal(&self, state: &State) -> Result<Vec<f64>, TermError> {
+    fn diagonal(&self, evaluate: &Evaluate<'_>) -> Result<Vec<f64>, TermError> {
         let mut diagonal = vec![0.0; self.system.layout.nmotion()];
         let mut scratch = Scratch::default();
-        for (term, chunk) in self.chunks(Part::Bulk) {
+        for (number, (term, chunk)) in self.chunks(Part::Bulk).enumerate() {
             let Scratch { work, elements, .. } = &mut scratch;
             elements.clear();
-            term.evaluate(chunk, state, Order::Tangent, work, elements)?;
+            evaluate(number, term, chunk, work, elements)?;
             elements.each(|dofs, stiffness| {
                 for (dof, k) in dofs.iter().zip(stiffness.iter().step_by(dofs.len() + 1)) {
                     if let Some(to) = diagonal.get_mut(*dof as usize) {
@@ -214,31 +232,117 @@ impl Bound<'_> {
         Ok(diagonal)
     }
 
+    /// The initial stiffness of all elements: materials with a history may be softer now than when they are unloaded.
+    pub fn initial(&self) -> Result<Initial, TermError> {
+        let masses = self.masses();
+        let evaluate = |_, term: &dyn Term, chunk, work: &mut Work, out: &mut Elements| {
+            let initial = term.capabilities().initial_stiffness;
+            initial.map_or(Ok(()), |of| of.add_initial(chunk, work, out))
+        };
+        let diagonal = self.diagonal(&evaluate)?;
+        Ok(Initial(self.each_chunk(
+            &evaluate,
+            |_, elements, vectors| {
+                let mut all = Vec::new();
+                elements.each(|dofs, stiffness| {
+                    all.push(self.eigenvalue((dofs, stiffness), [&masses, &diagonal], vectors));
+                });
+                all
+            },
+        )?))
+    }
+
     fn of_elements(
         &self,
         state: &State,
         masses: &[f64],
         diagonal: &[f64],
+        initial: &Initial,
     ) -> Result<f64, TermError> {
-        let chunks: Vec<(&dyn Term, usize)> = self.chunks(Part::Bulk).collect();
-        let largest = |scratch: &mut Scratch, (term, chunk): (&dyn Term, usize)| {
-            let Scratch {
-                work,
-                elements,
-                vectors,
-            } = scratch;
-            elements.clear();
-            term.evaluate(chunk, state, Order::Tangent, work, elements)?;
+        let evaluate = |_, term: &dyn Term, chunk, work: &mut Work, out: &mut Elements| {
+            term.evaluate(chunk, state, Order::Tangent, work, out)
+        };
+        let ndim = self.system.layout.ndim();
+        let all = self.each_chunk(&evaluate, |number, elements, vectors| {
+            let mut unloaded = initial.0.get(number).into_iter().flatten();
+            let mut nodes = Vec::new();
+            let nodes: &mut Vec<NodeId> = &mut nodes;
             let mut largest = 0.0_f64;
             elements.each(|dofs, stiffness| {
                 let own = self.eigenvalue((dofs, stiffness), [masses, diagonal], vectors);
-                largest = largest.max(own);
+                let before = unloaded.next().copied().unwrap_or_default();
+                let node = |dof: &Dof| Some(self.system.layout.name(*dof)?.displacement()?.0);
+                nodes.clear();
+                nodes.extend(dofs.iter().step_by(ndim.max(1)).filter_map(node));
+                largest = largest.max(own).max(before * self.shortened(nodes, state));
             });
-            Ok(largest)
+            largest
+        })?;
+        Ok(all.into_iter().fold(0.0, f64::max))
+    }
+
+    /// What comes of each chunk of elements, in their order.
+    fn each_chunk<T: Send>(
+        &self,
+        evaluate: &Evaluate<'_>,
+        make: impl Fn(usize, &Elements, &mut [Vec<f64>; 3]) -> T + Sync,
+    ) -> Result<Vec<T>, TermError> {
+        let chunks: Vec<(&dyn Term, usize)> = self.chunks(Part::Bulk).collect();
+        let of_chunk =
+            |scratch: &mut Scratch, (number, (term, chunk)): (usize, (&dyn Term, usize))| {
+                let Scratch {
+                    work,
+                    elements,
+                    vectors,
+                } = scratch;
+                elements.clear();
+                evaluate(number, term, chunk, work, elements)?;
+                Ok(make(number, elements, vectors))
+            };
+        let all = chunks.into_par_iter().enumerate();
+        all.map_init(Scratch::default, of_chunk).collect()
+    }
+
+    /// The square of the most that the distance of two nodes of an element was longer at the start.
+    fn shortened(&self, nodes: &[NodeId], state: &State) -> f64 {
+        if state.is_small {
+            return 1.0;
+        }
+        let place = |node: NodeId| {
+            let node = node as usize;
+            Some((*self.system.reference.get(node)?, *state.x.get(node)?))
         };
-        let all = chunks.into_par_iter().map_init(Scratch::default, largest);
-        let all: Result<Vec<f64>, TermError> = all.collect();
-        Ok(all?.into_iter().fold(0.0, f64::max))
+        let mut most = 1.0_f64;
+        for (k, &node) in nodes.iter().enumerate() {
+            for &other in nodes.iter().take(k) {
+                if let (Some((a, x)), Some((b, y))) = (place(node), place(other)) {
+                    let now = (x - y).norm_squared();
+                    if now > 0.0 {
+                        most = most.max((a - b).norm_squared() / now);
+                    }
+                }
+            }
+        }
+        most
+    }
+
+    /// The square of the highest frequency of elements that are unloaded from a state: what changes fast of what is stable, without
+    /// any stiffness of that state.
+    pub fn unloaded(&self, state: &State, initial: &Initial) -> f64 {
+        let chunks: Vec<(&dyn Term, usize)> = self.chunks(Part::Bulk).collect();
+        let of_chunk = |(number, (term, chunk)): (usize, (&dyn Term, usize))| {
+            let mut all = initial.0.get(number).into_iter().flatten();
+            let mut largest = 0.0_f64;
+            if let Some(elementwise) = term.capabilities().elementwise {
+                elementwise.elements(chunk, &mut |nodes| {
+                    let own = all.next().copied().unwrap_or_default();
+                    largest = largest.max(own * self.shortened(nodes, state));
+                });
+            }
+            largest
+        };
+        let all = chunks.into_par_iter().enumerate().map(of_chunk);
+        all.reduce(|| 0.0, f64::max)
     }
 
     /// The largest |λ| of an element with its part of the masses, by the power method.

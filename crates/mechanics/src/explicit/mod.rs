@@ -9,7 +9,7 @@
 //! ```
 //!
 //! What is written is at ends of increments; how many short ones each takes follows from what is stable, `longest`, which is found
-//! out where the step begins and every [`LOOK`] of them. Masses are at nodes; where unknowns follow others, those take them.
+//! out where the step begins and every [`LOOK`] of them, and sooner where elements become short. Masses are at nodes; where unknowns follow others, those take them.
 
 mod bodies;
 mod impulses;
@@ -20,12 +20,17 @@ use crate::system::{Archive, ArchiveError, Dof, Leapfrog, Rates, State, System, 
 use bodies::Bodies;
 pub use bodies::Past;
 use impulses::Impulses;
-use longest::{Bound, fastest};
+use longest::{Bound, Initial, fastest};
 use masses::Masses;
 use signorini_geometry::tensor::Vec3;
 
 /// Short increments after which what is stable is found out again, where motions are large.
 const LOOK: usize = 100;
+
+/// Short increments after which the lengths of elements are looked at, and the square of a frequency over that before from which on
+/// what is stable is found out again.
+const GLANCE: usize = 2;
+const GROWN: f64 = 1.1;
 
 /// How far apart rows may be that impulses are looked for, over the way of the fastest node in a short increment.
 const REACH: f64 = 4.0;
@@ -45,8 +50,11 @@ pub struct Explicit {
     impulses: Impulses,
     /// The longest short increment, with safety.
     longest: f64,
-    /// How many there were since that was found out.
+    /// What elements are at the start, once that was asked for.
+    initial: Option<Initial>,
+    /// How many there were since that was found out, and the square of the highest frequency of unloaded elements then.
     since: usize,
+    unloaded: f64,
     /// Mass that was added to all nodes.
     added: f64,
     /// Of each unknown at the last end of a short increment; those of bodies are with these.
@@ -81,7 +89,9 @@ impl Explicit {
             bodies,
             impulses: Impulses::default(),
             longest: 0.0,
+            initial: None,
             since: 0,
+            unloaded: 0.0,
             added: 0.0,
             velocity: vec![0.0; nmotion],
             acceleration: vec![0.0; nmotion],
@@ -105,6 +115,7 @@ impl Explicit {
         kept: Kept,
     ) -> Result<(), TermError> {
         (self.longest, self.since) = (kept.longest, kept.since);
+        self.unloaded = kept.unloaded;
         if kept.masses.len() == self.masses.of_nodes.len() {
             self.added = kept.masses.iter().sum::<f64>() - self.masses.total();
             self.masses.of_nodes = kept.masses;
@@ -210,12 +221,16 @@ impl Explicit {
             false => whole,
         };
         let mut longest = before;
+        let initial = match self.initial.take() {
+            Some(initial) => initial,
+            None => self.bound(system, prescribed).initial()?,
+        };
+        self.unloaded = self.bound(system, prescribed).unloaded(state, &initial);
         // what is near is within reach until the next look, at twice the speed
         for _ in 0..2 {
             let reach = 2.0 * speed * longest * LOOK as f64;
-            let squared = self
-                .bound(system, prescribed)
-                .frequency_squared(state, reach)?;
+            let bound = self.bound(system, prescribed);
+            let squared = bound.frequency_squared(state, reach, &initial)?;
             if !squared.is_finite() {
                 return Err(TermError::NotFinite {
                     what: "a stiffness".to_owned(),
@@ -228,6 +243,7 @@ impl Explicit {
             }
         }
         (self.longest, self.since) = (longest, 0);
+        self.initial = Some(initial);
         Ok(())
     }
 
@@ -239,10 +255,28 @@ impl Explicit {
         self.middle.clone_from(&self.velocity);
     }
 
-    /// Counts a short increment; whether what is stable is to be found out again, where it may have changed.
-    pub fn counts(&mut self) -> bool {
+    /// Counts a short increment that leads to a state; whether what is stable is to be found out again, where motions are large:
+    /// after some of them, and where elements have become short.
+    pub fn counts(
+        &mut self,
+        system: &System,
+        state: &State,
+        prescribed: &[bool],
+    ) -> Result<bool, TermError> {
         self.since += 1;
-        self.since >= LOOK
+        if self.since >= LOOK {
+            return Ok(true);
+        }
+        if !self.since.is_multiple_of(GLANCE) {
+            return Ok(false);
+        }
+        let initial = match self.initial.take() {
+            Some(initial) => initial,
+            None => self.bound(system, prescribed).initial()?,
+        };
+        let now = self.bound(system, prescribed).unloaded(state, &initial);
+        self.initial = Some(initial);
+        Ok(now > GROWN * self.unloaded)
     }
 
     /// What every unknown does in the present short increment, of length `h`.
@@ -275,6 +309,7 @@ impl Explicit {
         Kept {
             longest: self.longest,
             since: self.since,
+            unloaded: self.unloaded,
             masses: match self.added > 0.0 {
                 true => self.masses.of_nodes.clone(),
                 false => Vec::new(),
@@ -418,13 +453,15 @@ impl Explicit {
 pub struct Kept {
     longest: f64,
     since: usize,
+    unloaded: f64,
     /// The masses of nodes where some were added; else empty.
     masses: Vec<f64>,
 }
 
 impl Kept {
     pub fn save(&self, out: &mut Archive) {
-        out.put(STORED[0], &[self.longest, self.since as f64]);
+        let numbers = [self.longest, self.since as f64, self.unloaded];
+        out.put(STORED[0], &numbers);
         if !self.masses.is_empty() {
             out.put(STORED[1], &self.masses);
         }
@@ -435,7 +472,7 @@ impl Kept {
         if from.length(STORED[0]).is_err() {
             return Ok(None);
         }
-        let mut numbers = [0.0; 2];
+        let mut numbers = [0.0; 3];
         from.get(STORED[0], &mut numbers)?;
         let mut masses = vec![0.0; from.length(STORED[1]).unwrap_or(0)];
         if !masses.is_empty() {
@@ -444,6 +481,7 @@ impl Kept {
         Ok(Some(Self {
             longest: numbers[0],
             since: numbers[1] as usize,
+            unloaded: numbers[2],
             masses,
         }))
     }

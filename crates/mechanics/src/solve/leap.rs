@@ -163,7 +163,8 @@ impl Stepper {
         newton.trial.time = start + to;
         newton.assembler.begin_increment(&system.terms);
         newton.evaluate(system)?;
-        if explicit.counts() && step.nonlinear {
+        let prescribed = &newton.prescribed;
+        if step.nonlinear && explicit.counts(system, &newton.trial, prescribed)? {
             explicit.look(system, &newton.trial, &newton.prescribed, step.duration)?;
         }
         // impulses close rows at the end of the next one

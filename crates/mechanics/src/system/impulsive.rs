@@ -28,9 +28,7 @@ pub struct NearRow<'a> {
     pub dofs: &'a [Dof],
     /// Gap, negative in penetration.
     pub gap: f64,
-    /// ∂g/∂d.
-    pub gradient: &'a [f64],
-    /// b: the force of a pressure at the columns, over what that refers to.
+    /// b: the force of a pressure at the columns, over what that refers to; `b·v` is the velocity of the gap that does its work.
     pub weights: &'a [f64],
     /// What pressures refer to: an area, or 1.
     pub measure: f64,
@@ -61,8 +59,6 @@ pub enum Acts<'a> {
 /// Friction of a row. Vectors have one entry for each column.
 #[derive(Clone, Copy)]
 pub struct Rubbing<'a> {
-    /// ∂e/∂d, the derivative of the slip.
-    pub slip: &'a [Vec3],
-    /// B: the force at a column is `B·t`.
+    /// B: the force at a column is `B·t`; the part of `Bᵀ v` within the tangent plane is the velocity of the slip.
     pub operator: &'a [Vec3],
 }

@@ -59,6 +59,7 @@ fn bodies_that_meet_keep_their_momentum_and_gain_no_energy() {
         for nonlinear in [true, false] {
             for (method, law) in [
                 ("mortar", penalty),
+                ("mortar", lagrange),
                 ("node-to-segment", lagrange),
                 ("node-to-segment", penalty),
                 ("node-to-segment", augmented),
@@ -83,6 +84,40 @@ fn bodies_that_meet_keep_their_momentum_and_gain_no_energy() {
     }
 }
 
+/// A soft block that yields as it hits a floor: its elements become short, and are as stiff as before where they are unloaded.
+/// Implicit steps leave it the same energy.
+#[test]
+fn a_block_that_yields_stays_stable() {
+    let contact = "method = \"node-to-segment\"\nenforcement = { lagrange = {} }";
+    let yields = |dynamics: &str| {
+        let text = sliding(contact, &format!("dynamics = {{ {dynamics} }}"));
+        let text = text
+            .replace("friction = 0.5\n", "")
+            .replace("v = [1.0, 0.0]", "v = [0.0, -10.0]")
+            .replace("E = 1e5", "E = 1e4")
+            .replace(
+                "density = 1.0",
+                "density = 1.0\nplasticity = { hardening = \"isotropic\", table = [[50.0, 0.0], [200.0, 1.0]] }",
+            )
+            .replace("duration = 0.3\nincrements = { fixed = 300 }", "duration = 0.1\nincrements = { fixed = 20 }");
+        solved(&text)
+    };
+    let [explicit, implicit] = [EXPLICIT, "rho_inf = 0.9"].map(yields);
+    let at = |of: &super::Table, name: &str| of[name][19];
+    for name in ["energy.kinetic", "energy.internal"] {
+        let (got, wanted) = (at(&explicit, name), at(&implicit, name));
+        assert!((got - wanted).abs() < 5.0, "{name}: {got} {wanted}");
+    }
+    let least = explicit["energy.algorithmic"]
+        .iter()
+        .copied()
+        .fold(0.0, f64::min);
+    assert!(least > -0.05, "{least}");
+    // elements that become short ask for shorter increments
+    let counts = &explicit["iterations"];
+    assert!(counts[19] > 1.3 * counts[0], "{counts:?}");
+}
+
 /// A block slides on a floor until friction has stopped it: v²/(2 μ g).
 #[test]
 fn a_block_that_friction_stops_goes_as_far_as_its_energy_says() {
@@ -103,7 +138,8 @@ fn a_block_that_friction_stops_goes_as_far_as_its_energy_says() {
             .iter()
             .copied()
             .fold(0.0, f64::min);
-        assert!(least > -2e-3, "{contact}: {least}");
+        // work of friction is that of the shear at the end of a short increment: of first order
+        assert!(least > -5e-3, "{contact}: {least}");
     }
 }
 

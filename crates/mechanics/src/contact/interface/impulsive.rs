@@ -90,7 +90,6 @@ impl Impulsive for Interface {
                     count: self.nmultiplier(),
                     restitution: self.parts.restitution,
                     friction: laws.friction.map(|_| Rubbing {
-                        slip: &row.sliding.dslip,
                         operator: &row.sliding.operator,
                     }),
                 },
@@ -99,7 +98,6 @@ impl Impulsive for Interface {
                 number,
                 dofs: &dofs,
                 gap: row.gap,
-                gradient: &row.gradient,
                 weights: &row.weights,
                 measure: self.measure(number),
                 normal: row.normal,
