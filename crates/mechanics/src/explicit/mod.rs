@@ -9,7 +9,8 @@
 //! ```
 //!
 //! What is written is at ends of increments; how many short ones each takes follows from what is stable, `longest`, which is found
-//! out where the step begins and every [`LOOK`] of them, and sooner where elements become short. Masses are at nodes; where unknowns follow others, those take them.
+//! out where the step begins and every [`LOOK`] of them, and sooner where elements become short. Masses are at nodes; where
+//! unknowns follow others, those take them.
 
 mod bodies;
 mod impulses;
@@ -55,8 +56,10 @@ pub struct Explicit {
     /// How many there were since that was found out, and the square of the highest frequency of unloaded elements then.
     since: usize,
     unloaded: f64,
-    /// Mass that was added to all nodes.
+    /// Mass that was added to each node, where any was; that of all; and its kinetic energy where the step began.
+    extra: Vec<f64>,
     added: f64,
+    brought: f64,
     /// Of each unknown at the last end of a short increment; those of bodies are with these.
     velocity: Vec<f64>,
     acceleration: Vec<f64>,
@@ -92,7 +95,9 @@ impl Explicit {
             initial: None,
             since: 0,
             unloaded: 0.0,
+            extra: Vec::new(),
             added: 0.0,
+            brought: 0.0,
             velocity: vec![0.0; nmotion],
             acceleration: vec![0.0; nmotion],
             middle: vec![0.0; nmotion],
@@ -102,7 +107,6 @@ impl Explicit {
             targets: Vec::new(),
         };
         explicit.share_out(system, state, prescribed)?;
-        explicit.take_up(system, state);
         Ok(explicit)
     }
 
@@ -115,23 +119,42 @@ impl Explicit {
         kept: Kept,
     ) -> Result<(), TermError> {
         (self.longest, self.since) = (kept.longest, kept.since);
-        self.unloaded = kept.unloaded;
-        if kept.masses.len() == self.masses.of_nodes.len() {
-            self.added = kept.masses.iter().sum::<f64>() - self.masses.total();
-            self.masses.of_nodes = kept.masses;
+        (self.unloaded, self.brought) = (kept.unloaded, kept.brought);
+        if kept.extra.len() == self.masses.of_nodes.len() {
+            self.add(kept.extra);
             self.share_out(system, state, prescribed)?;
         }
         Ok(())
     }
 
+    /// Adds mass to nodes.
+    fn add(&mut self, extra: Vec<f64>) {
+        let masses = self.masses.of_nodes.iter_mut().zip(&extra);
+        masses.for_each(|(mass, extra)| *mass += extra);
+        self.added = extra.iter().sum();
+        self.extra = extra;
+    }
+
+    /// The kinetic energy of mass that was added, at a state and where the step began.
+    pub fn of_added(&self, state: &State) -> [f64; 2] {
+        let velocity = state.rates.iter().flat_map(|rates| &rates.velocity);
+        let now = self.extra.iter().zip(velocity);
+        let now = now.map(|(mass, v)| 0.5 * mass * v.norm_squared());
+        [now.sum(), self.brought]
+    }
+
+    /// Gives masses to unknowns and bodies, which move as at an accepted state.
     fn share_out(
         &mut self,
         system: &System,
         state: &State,
         prescribed: &[bool],
     ) -> Result<(), TermError> {
+        self.bodies = Bodies::of(system, &self.masses.of_nodes, prescribed);
         let bodies = &self.bodies;
-        self.masses.share_out(system, state, prescribed, bodies)
+        self.masses.share_out(system, state, prescribed, bodies)?;
+        self.take_up(system, state);
+        Ok(())
     }
 
     /// Takes up how everything moves at an accepted state.
@@ -166,7 +189,7 @@ impl Explicit {
         let Some(scaling) = self.leapfrog.scaling else {
             return Ok(());
         };
-        let before = self.masses.total();
+        let (before, own) = (self.masses.total(), self.masses.of_nodes.clone());
         let most = (2.0 * self.leapfrog.safety / scaling.step).powi(2);
         for _ in 0..SCALINGS {
             let lacking = self.bound(system, prescribed).lacking(state, most)?;
@@ -176,8 +199,12 @@ impl Explicit {
                 break;
             }
         }
-        let total = self.masses.total();
-        self.added = total - before;
+        let all = std::mem::replace(&mut self.masses.of_nodes, own);
+        let extra = all
+            .iter()
+            .zip(&self.masses.of_nodes)
+            .map(|(all, own)| all - own);
+        self.add(extra.collect());
         if self.added > scaling.limit * before {
             let part = self.added / before;
             return Err(TermError::Refused {
@@ -188,8 +215,8 @@ impl Explicit {
                 ),
             });
         }
-        self.share_out(system, state, prescribed)?;
-        Ok(())
+        [self.brought, _] = self.of_added(state);
+        self.share_out(system, state, prescribed)
     }
 
     fn bound<'a>(&'a self, system: &'a System, prescribed: &'a [bool]) -> Bound<'a> {
@@ -310,10 +337,8 @@ impl Explicit {
             longest: self.longest,
             since: self.since,
             unloaded: self.unloaded,
-            masses: match self.added > 0.0 {
-                true => self.masses.of_nodes.clone(),
-                false => Vec::new(),
-            },
+            brought: self.brought,
+            extra: self.extra.clone(),
         }
     }
 
@@ -454,16 +479,16 @@ pub struct Kept {
     longest: f64,
     since: usize,
     unloaded: f64,
-    /// The masses of nodes where some were added; else empty.
-    masses: Vec<f64>,
+    brought: f64,
+    extra: Vec<f64>,
 }
 
 impl Kept {
     pub fn save(&self, out: &mut Archive) {
-        let numbers = [self.longest, self.since as f64, self.unloaded];
+        let numbers = [self.longest, self.since as f64, self.unloaded, self.brought];
         out.put(STORED[0], &numbers);
-        if !self.masses.is_empty() {
-            out.put(STORED[1], &self.masses);
+        if !self.extra.is_empty() {
+            out.put(STORED[1], &self.extra);
         }
     }
 
@@ -472,17 +497,18 @@ impl Kept {
         if from.length(STORED[0]).is_err() {
             return Ok(None);
         }
-        let mut numbers = [0.0; 3];
+        let mut numbers = [0.0; 4];
         from.get(STORED[0], &mut numbers)?;
-        let mut masses = vec![0.0; from.length(STORED[1]).unwrap_or(0)];
-        if !masses.is_empty() {
-            from.get(STORED[1], &mut masses)?;
+        let mut extra = vec![0.0; from.length(STORED[1]).unwrap_or(0)];
+        if !extra.is_empty() {
+            from.get(STORED[1], &mut extra)?;
         }
         Ok(Some(Self {
             longest: numbers[0],
             since: numbers[1] as usize,
             unloaded: numbers[2],
-            masses,
+            brought: numbers[3],
+            extra,
         }))
     }
 }

@@ -731,6 +731,11 @@ impl Stepper {
         frame.work_external = self.progress.work.total;
         if let Some(energies) = &mut frame.energies {
             energies.external = self.progress.work.total;
+            if let Some(explicit) = &self.explicit {
+                let [now, brought] = explicit.of_added(&self.state);
+                energies.kinetic += now;
+                energies.kinetic_at_start += brought;
+            }
         }
         frame.increment = self.progress.increment;
         frame.work_turnover = self.progress.work.turnover;
