@@ -673,8 +673,8 @@ fn drag(row: &Row, measure: f64, work: &mut Derivatives, target: &mut Target<'_>
     }
     for (c, slopes) in work.slopes.iter_mut().enumerate() {
         slopes.clear();
-        let along = |b: &Vec3| if c < 3 { drag * row.within(*b)[c] } else { 0.0 };
-        slopes.extend(sliding.operator.iter().map(along));
+        let along = |slope: &Vec3| if c < 3 { drag * slope[c] } else { 0.0 };
+        slopes.extend(sliding.dway.iter().map(along));
         slopes.resize(width.max(n), 0.0);
     }
     add_stiffness(row, measure, (0.0, shear), &work.slopes, target.stiffness);

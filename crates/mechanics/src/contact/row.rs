@@ -113,6 +113,8 @@ pub struct Sliding {
     pub slip: Vec3,
     /// `P Bᵀ Δd`: how far it slips in the increment, of rows that are carried on to its end.
     pub way: Vec3,
+    /// Its derivative against the end of the increment, of rows whose slip is damped; valid where the tangent was asked for.
+    pub dway: Vec<Vec3>,
     /// ∂e/∂d.
     pub dslip: Vec<Vec3>,
     /// ∂ν/∂d.

@@ -181,7 +181,7 @@ impl Impulses {
             let at = |dof: Dof| rates.get(dof as usize).copied().unwrap_or_default();
             let before: f64 = columns.iter().map(|of| of.weight * at(of.dof)).sum();
             let closes = -row.gap / h;
-            row.target = match before < closes {
+            row.target = match before < closes && row.restitution > 0.0 {
                 true => closes.max(-row.restitution * before),
                 false => closes,
             };

@@ -76,7 +76,7 @@ fn bodies_that_meet_keep_their_momentum_and_gain_no_energy() {
                     );
                     for text in [text, swapped] {
                         // springs as stiff as elements give back a little more or less, as they close within an increment
-                        meet(&text, ndim, -0.02, &place);
+                        meet(&text, ndim, -0.03, &place);
                     }
                 }
             }
@@ -133,7 +133,8 @@ fn a_block_that_friction_stops_goes_as_far_as_its_energy_says() {
         let lost = got["energy.friction"][last] + got["energy.algorithmic"][last];
         assert!((lost / 0.5 - 1.0).abs() < 0.02, "{contact}: {lost}");
         assert!(got["energy.friction"][last] > 0.45, "{contact}");
-        assert!(got["energy.kinetic"][last] < 1e-3, "{contact}");
+        // penalties let it bounce a little for good
+        assert!(got["energy.kinetic"][last] < 5e-3, "{contact}");
         let least = got["energy.algorithmic"]
             .iter()
             .copied()

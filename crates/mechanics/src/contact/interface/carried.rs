@@ -34,6 +34,8 @@ pub(super) struct Carried {
     pub slips: bool,
     /// Whether that is the whole way.
     pub bond: bool,
+    /// Whether slip is damped.
+    pub drags: bool,
     /// Whether forces are secants of a potential.
     pub conserves: bool,
     /// The gap at the start of the increment, where they go on from that.
@@ -99,6 +101,9 @@ fn carry(row: &mut Row, alpha: f64, how: &Carried, ways: &[f64]) -> f64 {
             false => alpha,
         };
         carry_slip(row, [left, share], how.bond, ways);
+        if how.drags {
+            turn_way(row, ways);
+        }
     }
     closes
 }
@@ -119,4 +124,36 @@ fn carry_slip(row: &mut Row, [left, share]: [f64; 2], bond: bool, ways: &[f64]) 
         *slope = *slope * left + within(*b) * share;
     }
     sliding.scale_derivatives(left);
+}
+
+/// The derivative of `P Bᵀ Δd` against the end of the increment, with derivatives of B and of the normal that are those already.
+fn turn_way(row: &mut Row, ways: &[f64]) {
+    let (normal, sliding) = (row.normal, &mut row.sliding);
+    let mut slopes = std::mem::take(&mut sliding.dway);
+    slopes.clear();
+    slopes.extend_from_slice(&sliding.operator);
+    for (column, way) in ways.iter().enumerate() {
+        if let Some((axis, line)) = sliding.scaled(column) {
+            for (slope, d) in slopes.iter_mut().zip(line) {
+                slope[axis] += way * d;
+            }
+        }
+    }
+    for turn in sliding.turns() {
+        let across: Vec3 = turn.across.iter().zip(ways).map(|(a, d)| *a * *d).sum();
+        for (slope, along) in slopes.iter_mut().zip(&turn.along) {
+            *slope += across * *along;
+        }
+    }
+    let whole: Vec3 = sliding
+        .operator
+        .iter()
+        .zip(ways)
+        .map(|(b, d)| *b * *d)
+        .sum();
+    for (slope, dnormal) in slopes.iter_mut().zip(&sliding.dnormal) {
+        let turned = *dnormal * normal.dot(whole) + normal * dnormal.dot(whole);
+        *slope -= normal * normal.dot(*slope) + turned;
+    }
+    sliding.dway = slopes;
 }

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! where the law acts; what pulls is cut off unless [`Damping::pulls`]. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the
-//! gap: exact where sides are flat, or energy is conserved. The shear t resists slip, with friction and without.
+//! gap: exact where sides are flat, or energy is conserved. The shear t resists slip, with friction and without; its tangent is exact.
 
 use super::{Interface, Rows, State, TermError};
 use crate::contact::law::{Damping, Eval, Multiplier};

@@ -136,6 +136,7 @@ impl Interface {
             let carried = Carried {
                 slips: wanted.slip,
                 bond: laws.bond,
+                drags: wanted.slip && wanted.order == RowOrder::Tangent && self.drags(),
                 conserves: self.conserves(),
                 start: start.map(|[start, _]| start),
             };
