@@ -6,8 +6,9 @@
 //! |P_t| ≤ limit(P)      P_t ← P_t − P Bᵀ v_½/W_t, cut off
 //! ```
 //!
-//! row after row in their order, until no velocity changes, with the weights b along which the force does its work. The force is `P/h`. Each impact takes the energy of the nodes that meet,
-//! but for the coefficient of restitution e: it is that of rigid bodies, for nodes of deformable ones are stopped by what is behind them.
+//! row after row in their order, until no velocity changes, with the weights b along which the force does its work. The force is
+//! `P/h`. Each impact takes the energy of the nodes that meet, but for the coefficient of restitution e: it is that of rigid bodies, for
+//! nodes of deformable ones are stopped by what is behind them.
 //!
 //! Sources: Carpenter, Taylor and Katona, Int. J. Numer. Meth. Eng. 32, 1991; Jean, CMAME 177, 1999 (row after row).
 
