@@ -300,14 +300,7 @@ impl Body {
 
     /// M⁻¹ of its unknowns at a state, between those that are free: [`Body::respond`] takes it.
     pub fn compliance(&self, state: &State) -> [[f64; 6]; 6] {
-        let rotation = self.mass.rotation(state);
-        let lever = Mat3::skew(rotation * self.mass.arm);
-        let (mass, inertia) = (self.mass.mass, self.mass.inertia.to_mat3());
-        let about = rotation * inertia * rotation.transpose() - lever * lever * mass;
-        let blocks = [
-            [Mat3::IDENTITY * mass, lever * -mass],
-            [lever * mass, about],
-        ];
+        let blocks = self.mass.matrix(self.mass.rotation(state));
         let entry = |i: usize, j: usize| blocks[i / 3][j / 3].rows[i % 3][j % 3];
         inverted(
             std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))),
@@ -359,11 +352,9 @@ impl Body {
             let next = next.get(dof as usize).copied();
             given[k / 3][k % 3] = next.map_or(0.0, |v| (v - self.middle[k / 3][k % 3]) / lead);
         }
-        let lever = Mat3::skew(arm);
-        let (mass, inertia) = (self.mass.mass, self.mass.inertia.to_mat3());
-        let about = rotation * inertia * rotation.transpose() - lever * lever * mass;
-        left[0] -= given[0] * mass - lever * given[1] * mass;
-        left[1] -= lever * given[0] * mass + about * given[1];
+        for (left, row) in left.iter_mut().zip(self.mass.matrix(rotation)) {
+            *left -= row[0] * given[0] + row[1] * given[1];
+        }
         let compliance = self.compliance(state);
         let mut rates = given;
         for i in (0..6).filter(|&i| self.free[i]) {

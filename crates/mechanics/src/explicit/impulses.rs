@@ -73,6 +73,9 @@ impl Impulses {
     ) -> Result<(), TermError> {
         self.rows.clear();
         self.columns.clear();
+        if contacts(system).next().is_none() {
+            return Ok(());
+        }
         let compliances: Vec<[[f64; 6]; 6]> = bodies
             .of
             .iter()
@@ -256,10 +259,11 @@ impl Impulses {
     }
 }
 
-/// The contacts that may act, with their places among the terms.
+/// The contacts that act by impulses, with their places among the terms.
 fn contacts(system: &System) -> impl Iterator<Item = (usize, &dyn Impulsive)> {
     let terms = system.terms.iter().enumerate();
-    terms.filter_map(|(at, term)| Some((at, term.capabilities().impulsive?)))
+    let impulsive = terms.filter_map(|(at, term)| Some((at, term.capabilities().impulsive?)));
+    impulsive.filter(|(_, contact)| contact.is_hard())
 }
 
 impl Row {

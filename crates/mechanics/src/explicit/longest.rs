@@ -84,9 +84,16 @@ impl Elements {
 #[derive(Default)]
 pub struct Initial(Vec<Vec<f64>>);
 
-/// Adds the elements of a chunk: its number among all, the term, its number there.
+/// Adds the elements of a chunk of a term.
 type Evaluate<'a> =
-    dyn Fn(usize, &dyn Term, usize, &mut Work, &mut Elements) -> Result<(), TermError> + Sync + 'a;
+    dyn Fn(&dyn Term, usize, &mut Work, &mut Elements) -> Result<(), TermError> + Sync + 'a;
+
+/// Adds their stiffness at a state.
+fn tangent(
+    state: &State,
+) -> impl Fn(&dyn Term, usize, &mut Work, &mut Elements) -> Result<(), TermError> + Sync {
+    |term, chunk, work, out| term.evaluate(chunk, state, Order::Tangent, work, out)
+}
 
 /// What one thread needs.
 #[derive(Default)]
@@ -97,29 +104,11 @@ struct Scratch {
 }
 
 impl Bound<'_> {
-    /// The square of a frequency (radian per time) that none exceeds in a state, with rows of contacts up to `reach` closed.
-    pub fn frequency_squared(
-        &self,
-        state: &State,
-        reach: f64,
-        initial: &Initial,
-    ) -> Result<f64, TermError> {
-        let masses = self.masses();
-        let diagonal = self.diagonal(&|_, term, chunk, work, out| {
-            term.evaluate(chunk, state, Order::Tangent, work, out)
-        })?;
-        let of_elements = self.of_elements(state, &masses, &diagonal, initial)?;
-        let of_rows = self.of_rows(state, &masses, reach)?;
-        Ok(of_elements + of_rows)
-    }
-
     /// The mass that each node lacks so that no element has a frequency above this, squared: of an element, masses in the
     /// proportion of `Σ_j |K_ij|` are those that its largest eigenvalue asks for.
     pub fn lacking(&self, state: &State, most: f64) -> Result<Vec<f64>, TermError> {
         let masses = self.masses();
-        let diagonal = self.diagonal(&|_, term, chunk, work, out| {
-            term.evaluate(chunk, state, Order::Tangent, work, out)
-        })?;
+        let diagonal = self.diagonal(&tangent(state))?;
         let layout = &self.system.layout;
         let mut lacking = vec![0.0; layout.nnode()];
         let mut scratch = Scratch::default();
@@ -217,10 +206,10 @@ impl Bound<'_> {
     fn diagonal(&self, evaluate: &Evaluate<'_>) -> Result<Vec<f64>, TermError> {
         let mut diagonal = vec![0.0; self.system.layout.nmotion()];
         let mut scratch = Scratch::default();
-        for (number, (term, chunk)) in self.chunks(Part::Bulk).enumerate() {
+        for (term, chunk) in self.chunks(Part::Bulk) {
             let Scratch { work, elements, .. } = &mut scratch;
             elements.clear();
-            evaluate(number, term, chunk, work, elements)?;
+            evaluate(term, chunk, work, elements)?;
             elements.each(|dofs, stiffness| {
                 for (dof, k) in dofs.iter().zip(stiffness.iter().step_by(dofs.len() + 1)) {
                     if let Some(to) = diagonal.get_mut(*dof as usize) {
@@ -235,7 +224,7 @@ impl Bound<'_> {
     /// The initial stiffness of all elements: materials with a history may be softer now than when they are unloaded.
     pub fn initial(&self) -> Result<Initial, TermError> {
         let masses = self.masses();
-        let evaluate = |_, term: &dyn Term, chunk, work: &mut Work, out: &mut Elements| {
+        let evaluate = |term: &dyn Term, chunk, work: &mut Work, out: &mut Elements| {
             let initial = term.capabilities().initial_stiffness;
             initial.map_or(Ok(()), |of| of.add_initial(chunk, work, out))
         };
@@ -252,29 +241,22 @@ impl Bound<'_> {
         )?))
     }
 
-    fn of_elements(
-        &self,
-        state: &State,
-        masses: &[f64],
-        diagonal: &[f64],
-        initial: &Initial,
-    ) -> Result<f64, TermError> {
-        let evaluate = |_, term: &dyn Term, chunk, work: &mut Work, out: &mut Elements| {
-            term.evaluate(chunk, state, Order::Tangent, work, out)
-        };
+    /// The part of elements in the square of a frequency (radian per time) that none exceeds in a state.
+    pub fn of_elements(&self, state: &State, initial: &Initial) -> Result<f64, TermError> {
+        let masses = self.masses();
+        let diagonal = self.diagonal(&tangent(state))?;
         let ndim = self.system.layout.ndim();
-        let all = self.each_chunk(&evaluate, |number, elements, vectors| {
+        let all = self.each_chunk(&tangent(state), |number, elements, vectors| {
             let mut unloaded = initial.0.get(number).into_iter().flatten();
-            let mut nodes = Vec::new();
-            let nodes: &mut Vec<NodeId> = &mut nodes;
+            let mut nodes: Vec<NodeId> = Vec::new();
             let mut largest = 0.0_f64;
             elements.each(|dofs, stiffness| {
-                let own = self.eigenvalue((dofs, stiffness), [masses, diagonal], vectors);
+                let own = self.eigenvalue((dofs, stiffness), [&masses, &diagonal], vectors);
                 let before = unloaded.next().copied().unwrap_or_default();
                 let node = |dof: &Dof| Some(self.system.layout.name(*dof)?.displacement()?.0);
                 nodes.clear();
                 nodes.extend(dofs.iter().step_by(ndim.max(1)).filter_map(node));
-                largest = largest.max(own).max(before * self.shortened(nodes, state));
+                largest = largest.max(own).max(before * self.shortened(&nodes, state));
             });
             largest
         })?;
@@ -296,7 +278,7 @@ impl Bound<'_> {
                     vectors,
                 } = scratch;
                 elements.clear();
-                evaluate(number, term, chunk, work, elements)?;
+                evaluate(term, chunk, work, elements)?;
                 Ok(make(number, elements, vectors))
             };
         let all = chunks.into_par_iter().enumerate();
@@ -396,8 +378,9 @@ impl Bound<'_> {
         found
     }
 
-    /// The largest sum of a row over its mass, of springs and of contacts.
-    fn of_rows(&self, state: &State, masses: &[f64], reach: f64) -> Result<f64, TermError> {
+    /// The part of springs and of rows of contacts up to `reach`: the largest sum of a row over its mass.
+    pub fn of_rows(&self, state: &State, reach: f64) -> Result<f64, TermError> {
+        let masses = self.masses();
         let layout = &self.system.layout;
         let mut sums = vec![0.0; layout.nmotion()];
         let mut scratch = Scratch::default();
@@ -428,7 +411,7 @@ impl Bound<'_> {
                 }
             });
         }
-        let over = shared.iter().zip(masses).zip(self.prescribed);
+        let over = shared.iter().zip(&masses).zip(self.prescribed);
         let over = over.filter(|((sum, mass), fixed)| **sum > 0.0 && **mass > 0.0 && !**fixed);
         Ok(over.fold(0.0, |most: f64, ((sum, mass), _)| most.max(sum / mass)))
     }

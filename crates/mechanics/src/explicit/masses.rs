@@ -54,7 +54,7 @@ impl Masses {
     /// so that the mass of all is the same.
     ///
     /// # Errors
-    /// An unknown that a force may act on has no mass, or a negative one.
+    /// A node follows what moves in some directions only; an unknown has a negative mass.
     pub fn share_out(
         &mut self,
         system: &System,

@@ -84,12 +84,10 @@ impl Explicit {
         prescribed: &[bool],
     ) -> Result<Self, TermError> {
         let nmotion = system.layout.nmotion();
-        let masses = Masses::of(system);
-        let bodies = Bodies::of(system, &masses.of_nodes, prescribed);
         let mut explicit = Self {
             leapfrog,
-            masses,
-            bodies,
+            masses: Masses::of(system),
+            bodies: Bodies::default(),
             impulses: Impulses::default(),
             longest: 0.0,
             initial: None,
@@ -234,6 +232,14 @@ impl Explicit {
         left / (left / self.longest * (1.0 - ROUNDING)).ceil().max(1.0)
     }
 
+    /// What elements are at the start; who takes it gives it back.
+    fn take_initial(&mut self, system: &System, prescribed: &[bool]) -> Result<Initial, TermError> {
+        match self.initial.take() {
+            Some(initial) => Ok(initial),
+            None => self.bound(system, prescribed).initial(),
+        }
+    }
+
     /// Finds out how long short increments may be. Nothing limits those of a system that nothing holds together.
     pub fn look(
         &mut self,
@@ -248,16 +254,16 @@ impl Explicit {
             false => whole,
         };
         let mut longest = before;
-        let initial = match self.initial.take() {
-            Some(initial) => initial,
-            None => self.bound(system, prescribed).initial()?,
-        };
-        self.unloaded = self.bound(system, prescribed).unloaded(state, &initial);
+        let initial = self.take_initial(system, prescribed)?;
+        let bound = self.bound(system, prescribed);
+        let (unloaded, of_elements) = (
+            bound.unloaded(state, &initial),
+            bound.of_elements(state, &initial)?,
+        );
         // what is near is within reach until the next look, at twice the speed
         for _ in 0..2 {
             let reach = 2.0 * speed * longest * LOOK as f64;
-            let bound = self.bound(system, prescribed);
-            let squared = bound.frequency_squared(state, reach, &initial)?;
+            let squared = of_elements + bound.of_rows(state, reach)?;
             if !squared.is_finite() {
                 return Err(TermError::NotFinite {
                     what: "a stiffness".to_owned(),
@@ -269,7 +275,7 @@ impl Explicit {
                 break;
             }
         }
-        (self.longest, self.since) = (longest, 0);
+        (self.longest, self.since, self.unloaded) = (longest, 0, unloaded);
         self.initial = Some(initial);
         Ok(())
     }
@@ -297,21 +303,14 @@ impl Explicit {
         if !self.since.is_multiple_of(GLANCE) {
             return Ok(false);
         }
-        let initial = match self.initial.take() {
-            Some(initial) => initial,
-            None => self.bound(system, prescribed).initial()?,
-        };
+        let initial = self.take_initial(system, prescribed)?;
         let now = self.bound(system, prescribed).unloaded(state, &initial);
         self.initial = Some(initial);
         Ok(now > GROWN * self.unloaded)
     }
 
-    /// What every unknown does in the present short increment, of length `h`.
-    pub fn moves(&mut self, h: f64) -> &[f64] {
-        let over = h.recip();
-        for (middle, du) in self.middle.iter_mut().zip(&self.du) {
-            *middle = du * over;
-        }
+    /// What every unknown does in the present short increment.
+    pub fn moves(&self) -> &[f64] {
         &self.du
     }
 
@@ -365,6 +364,9 @@ impl Explicit {
                 *du = to - from;
             }
         }
+        let over = h.recip();
+        let rates = self.middle.iter_mut().zip(&self.du);
+        rates.for_each(|(middle, du)| *middle = du * over);
         // multipliers begin with nothing
         let nmotion = self.velocity.len();
         let others = self.du.iter_mut().zip(&state.u).skip(nmotion);

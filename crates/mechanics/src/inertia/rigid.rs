@@ -94,14 +94,9 @@ impl RigidInertia {
             inward = turning.cross(turning.cross(arm)) * body.mass;
             gyroscopic = rotation * spin.cross(inertia * spin);
         }
-        let lever = Mat3::skew(arm);
-        let inertia = rotation * inertia * rotation.transpose();
         Wrench {
             parts: [inward, arm.cross(inward) + gyroscopic],
-            slopes: [
-                [Mat3::IDENTITY * body.mass, lever * -body.mass],
-                [lever * body.mass, inertia - lever * lever * body.mass],
-            ],
+            slopes: body.matrix(rotation),
         }
     }
 

@@ -159,7 +159,7 @@ impl Stepper {
         self.targets(step, to, &mut explicit.targets);
         explicit.leave(&self.state, h);
         let newton = &mut self.newton;
-        system.advance(&mut newton.trial, &self.state, explicit.moves(h), 1.0);
+        system.advance(&mut newton.trial, &self.state, explicit.moves(), 1.0);
         newton.trial.time = start + to;
         newton.assembler.begin_increment(&system.terms);
         newton.evaluate(system)?;
@@ -186,7 +186,7 @@ impl Stepper {
         )?;
         let work = &mut self.progress.work;
         let residual = &newton.assembly.residual;
-        let moves = explicit.moves(h);
+        let moves = explicit.moves();
         work.leap(system, &newton.prescribed, residual, &newton.trial, moves)?;
         newton.trial.rates = self.state.rates.take();
         std::mem::swap(&mut self.state, &mut newton.trial);

@@ -5,6 +5,9 @@ use signorini_geometry::tensor::Vec3;
 
 /// A contact, as explicit steps see it.
 pub trait Impulsive {
+    /// Whether impulses act on its rows.
+    fn is_hard(&self) -> bool;
+
     /// The rows that are no farther apart than `reach` at a state.
     ///
     /// # Errors

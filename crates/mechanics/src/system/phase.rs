@@ -26,6 +26,12 @@ impl StepContext {
     pub fn conserves(&self) -> bool {
         self.scheme.is_some_and(|scheme| scheme.conserves)
     }
+
+    /// Whether forces at its short increments follow from the state alone.
+    #[must_use]
+    pub fn is_explicit(&self) -> bool {
+        self.scheme.is_some_and(|scheme| scheme.explicit.is_some())
+    }
 }
 
 /// The step before any begins.

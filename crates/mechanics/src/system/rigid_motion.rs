@@ -95,6 +95,17 @@ impl RigidMass {
         self.inertia + Sym3::diagonal(square, square, square) - along
     }
 
+    /// Its mass between translations of the reference point and rotations, by blocks, where it has turned by `rotation`.
+    #[must_use]
+    pub fn matrix(&self, rotation: Mat3) -> [[Mat3; 2]; 2] {
+        let lever = Mat3::skew(rotation * self.arm);
+        let inertia = rotation * self.inertia.to_mat3() * rotation.transpose();
+        [
+            [Mat3::IDENTITY * self.mass, lever * -self.mass],
+            [lever * self.mass, inertia - lever * lever * self.mass],
+        ]
+    }
+
     /// Its way from where it has turned by `start`, [`RigidMass::rotation`], with this translation and rotation of its carrier, see
     /// [`moved`].
     #[must_use]

@@ -86,11 +86,11 @@ impl Interface {
     /// The longest way of the dynamic gaps around each node of the secondary side in the increment; where impulses act on what
     /// closes in the next short increment, how far anything goes in one.
     fn ways_at_nodes(&self, state: &State) -> Vec<f64> {
-        let is_explicit = self.step.scheme.is_some_and(|of| of.explicit.is_some());
+        let is_explicit = self.step.is_explicit();
         if let Some(rates) = state
             .rates
             .as_ref()
-            .filter(|_| is_explicit && self.is_hard())
+            .filter(|_| is_explicit && self.has_unknown_multipliers())
         {
             let speeds = rates.velocity.iter().map(|v| v.norm());
             let fastest = speeds.fold(0.0, f64::max);

@@ -108,16 +108,16 @@ fn carry(row: &mut Row, alpha: f64, how: &Carried, ways: &[f64]) -> f64 {
     closes
 }
 
+/// `Bᵀ Δd`.
+fn whole_way(operator: &[Vec3], ways: &[f64]) -> Vec3 {
+    operator.iter().zip(ways).map(|(b, d)| *b * *d).sum()
+}
+
 fn carry_slip(row: &mut Row, [left, share]: [f64; 2], bond: bool, ways: &[f64]) {
     let normal = row.normal;
     let within = |v: Vec3| if bond { v } else { v - normal * normal.dot(v) };
     let sliding = &mut row.sliding;
-    let way: Vec3 = sliding
-        .operator
-        .iter()
-        .zip(ways)
-        .map(|(b, d)| *b * *d)
-        .sum();
+    let way = whole_way(&sliding.operator, ways);
     sliding.way = within(way);
     sliding.slip += sliding.way * share;
     for (slope, b) in sliding.dslip.iter_mut().zip(&sliding.operator) {
@@ -140,17 +140,12 @@ fn turn_way(row: &mut Row, ways: &[f64]) {
         }
     }
     for turn in sliding.turns() {
-        let across: Vec3 = turn.across.iter().zip(ways).map(|(a, d)| *a * *d).sum();
+        let across = whole_way(&turn.across, ways);
         for (slope, along) in slopes.iter_mut().zip(&turn.along) {
             *slope += across * *along;
         }
     }
-    let whole: Vec3 = sliding
-        .operator
-        .iter()
-        .zip(ways)
-        .map(|(b, d)| *b * *d)
-        .sum();
+    let whole = whole_way(&sliding.operator, ways);
     for (slope, dnormal) in slopes.iter_mut().zip(&sliding.dnormal) {
         let turned = *dnormal * normal.dot(whole) + normal * dnormal.dot(whole);
         *slope -= normal * normal.dot(*slope) + turned;

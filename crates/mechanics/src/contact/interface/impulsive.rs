@@ -11,8 +11,8 @@ use crate::system::{Acts, Dof, Impulsive, NearRow, Rubbing};
 const CLOSED: f64 = 1e-6;
 
 impl Interface {
-    /// Whether impulses hold its rows.
-    pub(super) fn is_hard(&self) -> bool {
+    /// Whether its multipliers are solved for.
+    pub(super) fn has_unknown_multipliers(&self) -> bool {
         self.parts.bond.is_none() && self.parts.law.multiplier().is_unknown()
     }
 
@@ -30,11 +30,11 @@ impl Interface {
                 "contact \"{name}\" damps, which explicit steps do not: delete `damping`, or take an implicit method"
             ));
         }
-        let lends = self.is_hard() && !self.lents.is_empty();
+        let lends = self.has_unknown_multipliers() && !self.lents.is_empty();
         lends.then(|| {
             format!(
                 "contact \"{name}\" has nodes that are held along its face, whose multipliers act elsewhere: take a penalty, or \
-                 discretization = \"node-to-segment\", in an explicit step"
+                 method = \"node-to-segment\", in an explicit step"
             )
         })
     }
@@ -56,6 +56,10 @@ impl Interface {
 }
 
 impl Impulsive for Interface {
+    fn is_hard(&self) -> bool {
+        self.has_unknown_multipliers()
+    }
+
     fn near_rows(
         &self,
         state: &State,
@@ -81,7 +85,7 @@ impl Impulsive for Interface {
             let Some(row) = rows.rows().first() else {
                 continue;
             };
-            let acts = match self.is_hard() {
+            let acts = match self.has_unknown_multipliers() {
                 false => Acts::Stiff(self.stiffness(row)),
                 true => Acts::Hard {
                     multiplier: self

@@ -198,9 +198,9 @@ impl Interface {
 
     fn laws(&self) -> Laws<'_> {
         let friction = self.phase().and_then(|p| p.friction.as_ref());
-        let is_explicit = self.step.scheme.is_some_and(|of| of.explicit.is_some());
+        let is_explicit = self.step.is_explicit();
         Laws {
-            law: match is_explicit && self.is_hard() {
+            law: match is_explicit && self.has_unknown_multipliers() {
                 true => &Impulse,
                 false => self.parts.law.as_ref(),
             },

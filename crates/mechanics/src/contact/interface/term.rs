@@ -51,8 +51,10 @@ impl Term for Interface {
         if phase.increment.is_some() {
             self.begin_increment(from)?;
         }
-        let is_explicit = phase.step.scheme.is_some_and(|of| of.explicit.is_some());
-        match self.not_explicit().filter(|_| is_explicit) {
+        if !phase.step.is_explicit() {
+            return Ok(());
+        }
+        match self.not_explicit() {
             Some(message) => Err(TermError::Refused { message }),
             None => Ok(()),
         }
