@@ -56,6 +56,34 @@ impl System {
         state.rates = rates;
     }
 
+    /// How fast unknowns change at a state: those of nodes, and of references of rigid bodies with a mass.
+    #[must_use]
+    pub fn rates_of_unknowns(&self, state: &State) -> Vec<f64> {
+        let layout = &self.layout;
+        let mut of = vec![0.0; layout.ndof()];
+        let Some(rates) = &state.rates else {
+            return of;
+        };
+        let mut set = |dof: Dof, to: f64| {
+            if let Some(rate) = of.get_mut(dof as usize) {
+                *rate = to;
+            }
+        };
+        let [velocity, _] = self.nodal_motions(state, rates);
+        for (node, v) in (0..).zip(velocity) {
+            (0..layout.ndim()).for_each(|axis| set(layout.node(node, axis), v[axis]));
+        }
+        for (body, rates) in self.heavy.iter().zip(&rates.bodies) {
+            let [velocity, _] = body.at(state, rates, Vec3::ZERO);
+            let spin = body.rotation(state) * rates.spin;
+            for axis in 0..3 {
+                set(layout.translation(body.carrier, axis), velocity[axis]);
+                set(layout.rotation(body.carrier, axis), spin[axis]);
+            }
+        }
+        of
+    }
+
     /// Moves rates on to the end of an increment that leads from one state to another.
     pub fn advance_rates(&self, rates: &mut Rates, scheme: &Scheme, [from, to]: [&State; 2]) {
         let h = to.time - from.time;

@@ -9,12 +9,30 @@ use std::fmt::Write;
 
 /// Two blocks, which fly towards each other, the upper one aside.
 pub fn blocks(ndim: usize, nonlinear: bool, contact: &str) -> String {
+    let z = |v: &str| {
+        if ndim == 3 {
+            format!(", {v}")
+        } else {
+            String::new()
+        }
+    };
+    let lower = format!("{{ on = \"lower\", v = [0, 0.5{}] }}", z("0"));
+    let upper = format!("{{ on = \"upper\", v = [0.3, -1.0{}] }}", z("0.2"));
+    apart(ndim, nonlinear, contact, 0.02)
+        + &format!(
+            "duration = 0.6\nincrements = {{ fixed = 60 }}\n\
+             [initial]\nvelocity = [{lower}, {upper}]\n"
+        )
+}
+
+/// Two blocks with a gap between them, in a step without a duration.
+pub fn apart(ndim: usize, nonlinear: bool, contact: &str, gap: f64) -> String {
     let (mut nodes, mut elements) = (String::new(), String::new());
     let (mut nnode, mut nelement) = (0, 0);
     let mut faces = Vec::new();
     for (name, n, low, size) in [
         ("lower", [4, 3, 2], [0.0, 0.0, 0.0], [2.0, 1.0, 1.0]),
-        ("upper", [3, 4, 3], [0.35, 1.02, 0.1], [1.2, 1.0, 0.7]),
+        ("upper", [3, 4, 3], [0.35, 1.0 + gap, 0.1], [1.2, 1.0, 0.7]),
     ] {
         let layers = if ndim == 3 { n[2] } else { 0 };
         let node = |i, j, k| nnode + 1 + i + (n[0] + 1) * (j + (n[1] + 1) * k);
@@ -67,20 +85,15 @@ pub fn blocks(ndim: usize, nonlinear: bool, contact: &str) -> String {
     }
     let space = if ndim == 3 { "3d" } else { "plane-strain" };
     let geometry = if nonlinear { "nonlinear" } else { "linear" };
-    let z = if ndim == 3 { ", 0.2" } else { "" };
     format!(
         "[mesh]\nnodes = [{nodes}]\nelements = [{elements}]\n[model]\nspace = \"{space}\"\n\
          [material.soft]\nmodel = \"neo-hookean\"\nE = 100.0\nnu = 0.3\ndensity = 1.0\n\
          [[body]]\ngroup = [\"lower\", \"upper\"]\nmaterial = \"soft\"\n\
          [sets]\ntop = {{ faces = [{}] }}\nfoot = {{ faces = [{}] }}\n\
          [[contact]]\nname = \"c\"\nsecondary = \"foot\"\nprimary = \"top\"\n{contact}\n\
-         [initial]\nvelocity = [{{ on = \"lower\", v = [0, 0.5{}] }}, {{ on = \"upper\", v = [0.3, -1.0{z}] }}]\n\
          [solver]\nnewton = {{ force_tol = 1e-11 }}\n\
-         [[step]]\nname = \"fly\"\nkind = \"dynamic\"\ngeometry = \"{geometry}\"\nduration = 0.6\n\
-         increments = {{ fixed = 60 }}\n",
-        faces[0],
-        faces[1],
-        if ndim == 3 { ", 0" } else { "" },
+         [[step]]\nname = \"fly\"\nkind = \"dynamic\"\ngeometry = \"{geometry}\"\n",
+        faces[0], faces[1],
     )
 }
 

@@ -19,6 +19,7 @@ mod control;
 mod explicit;
 mod impact;
 mod rigid;
+mod start;
 
 use bar::{Bar, LENGTH, WAVE};
 use signorini::{Finished, News, Reading, RunOptions, build, open_text, run};

@@ -10,6 +10,7 @@
 //!
 //! What follows an iterate is decided by pure functions of it (`iterate`), and by what the attempt remembers (`course`).
 
+mod accelerations;
 mod course;
 mod failure;
 mod goal;

@@ -2,9 +2,7 @@
 
 use super::goal::{Goal, Start};
 use super::{Failure, Newton};
-use crate::solve::equations::{Accuracy, Factor};
 use crate::system::{Dof, Order, State, System, TermError};
-use signorini_linear::EXACT;
 
 impl Newton {
     /// Sets up the trial state, extrapolated where that is of use.
@@ -62,42 +60,6 @@ impl Newton {
             changes: 0,
             extrapolated: better,
         }
-    }
-
-    /// Sets the accelerations of all nodes at an accepted state where a step with inertia begins: those that forces there give
-    /// to masses, `M a = −r`, with the multipliers of what is joined and of contacts that are closed.
-    pub fn accelerate(&mut self, system: &mut System, state: &mut State) -> Result<(), Failure> {
-        self.between = None;
-        self.trial.clone_from(state);
-        self.assembler.begin_increment(&system.terms);
-        self.moved();
-        self.prepare(system, Order::Tangent)?;
-        (self.assembled, self.has_tangent) = (None, false);
-        let (layout, elimination) = (&system.layout, &system.elimination);
-        self.assembler.assemble_mass(
-            layout,
-            elimination,
-            &system.terms,
-            &self.trial,
-            &mut self.assembly,
-        )?;
-        self.du.clear();
-        self.du.resize(layout.ndof(), 0.0);
-        let accuracy = Accuracy::Residual(EXACT);
-        let (assembler, assembly) = (&self.assembler, &self.assembly);
-        self.equations.forget();
-        let solved = self.equations.solve(
-            assembler,
-            assembly,
-            false,
-            Factor::New,
-            accuracy,
-            &mut self.du,
-        );
-        solved.map_err(|source| self.linear_failure(source))?;
-        system.accelerate(state, &self.du);
-        system.reject();
-        Ok(())
     }
 
     /// Lets all terms look at an accepted state, and makes room for what they couple there.
