@@ -2,7 +2,7 @@
 //!
 //! ALPHA is that of Hilber, Hughes and Taylor, −0.05 unless the card says otherwise, between −1/3 and 0. With contact it becomes the
 //! generalized-α method of the same damping of the highest frequencies, `ρ = (1 + α)/(1 − α)`: by ALPHA itself, contact flickers
-//! and may gain energy.
+//! and may gain energy. Where the laws of CalculiX hold, it stays, and contact forces are weighted as others are.
 
 use super::compat::Compat;
 use super::translation::Translation;
@@ -25,6 +25,7 @@ impl Translation<'_> {
                     scaling: None,
                 },
                 redistributed: Spanned::new(false, card.place.clone()),
+                weighted: false,
                 error_tol: ERROR_TOL,
                 impact_step: IMPACT_STEP,
             });
@@ -41,7 +42,8 @@ impl Translation<'_> {
             }
         };
         let has_contact = !self.case.contacts.is_empty() || self.case.general.is_some();
-        let method = if has_contact {
+        let weighted = has_contact && self.compat == Compat::Ccx;
+        let method = if has_contact && !weighted {
             let radius = (1.0 + alpha) / (1.0 - alpha);
             let text = format!(
                 "ALPHA = {alpha} becomes rho_inf = {radius:.4} of the generalized-alpha method: by ALPHA, contact flickers"
@@ -54,6 +56,7 @@ impl Translation<'_> {
         step.dynamics = Some(Dynamics {
             method,
             redistributed: Spanned::new(false, card.place.clone()),
+            weighted,
             error_tol: ERROR_TOL,
             impact_step: IMPACT_STEP,
         });

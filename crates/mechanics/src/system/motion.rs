@@ -46,6 +46,8 @@ pub struct Scheme {
     pub gamma: f64,
     /// Whether nodes of bodies that contact may act on have no mass; that is with the nodes next to them.
     pub redistributed: bool,
+    /// Whether forces of contacts without multipliers are weighted with those before, as other forces are.
+    pub weighted: bool,
     /// Whether forces that have a potential do the work of that, so that energy and momenta are conserved.
     pub conserves: bool,
     /// How increments are cut where forces at each cut follow from the state alone (E11); else equations are solved.
@@ -114,6 +116,7 @@ impl Scheme {
             beta: 0.25 * sum * sum,
             gamma: sum - 0.5,
             redistributed: false,
+            weighted: false,
             conserves: false,
             explicit: None,
         }

@@ -1547,6 +1547,11 @@ class Dynamics(Table):
         "In its place, that of Hilber, Hughes and Taylor; 0: the trapezoidal rule of Newmark",
         "number ≥ -0.3333333333333333, ≤ 0.0",
     )
+    contact_force: Key[Literal["end", "weighted"], Literal["end", "weighted"]] = Key(
+        "End: contact acts as a whole, as it is at the end of an increment; weighted: of penalties and curves, with its share of all forces, and what it was before, as CalculiX does: hard contact flickers then",
+        "`\"end\"`, `\"weighted\"`",
+        default="end",
+    )
     contact_mass: Key[Literal["as-is", "redistributed"], Literal["as-is", "redistributed"]] = Key(
         "Redistributed: elements with nodes on a side of a contact give their mass to their other nodes; impacts then neither flicker nor lose energy",
         "`\"as-is\"`, `\"redistributed\"`",

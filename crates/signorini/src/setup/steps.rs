@@ -117,6 +117,7 @@ impl Builder<'_> {
         };
         Some(Scheme {
             redistributed: *dynamics.redistributed,
+            weighted: dynamics.weighted,
             ..scheme
         })
     }

@@ -20,6 +20,7 @@ mod explicit;
 mod impact;
 mod rigid;
 mod start;
+mod weighted;
 
 use bar::{Bar, LENGTH, WAVE};
 use signorini::{Finished, News, Reading, RunOptions, build, open_text, run};

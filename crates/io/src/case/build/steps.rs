@@ -84,6 +84,7 @@ impl Builder<'_> {
         Some(Dynamics {
             method: self.dynamic_method(table),
             redistributed: Spanned::new(contact_mass.value == "redistributed", contact_mass.place),
+            weighted: table.text("contact_force").value == "weighted",
             error_tol: table.number("error_tol"),
             impact_step: table.number("impact_step"),
         })
@@ -100,6 +101,7 @@ impl Builder<'_> {
                     &["contact_mass"],
                     "delete it: nodes without mass have no accelerations",
                 ),
+                (&["contact_force"], "delete it: forces are those of a state"),
                 (
                     &["error_tol", "impact_step"],
                     "delete it: what is stable is short enough",
@@ -107,6 +109,10 @@ impl Builder<'_> {
             ],
             "energy-momentum" => &[
                 (&["rho_inf", "alpha"], "delete it: no frequency is damped"),
+                (
+                    &["contact_force"],
+                    "delete it: forces do the work of an energy",
+                ),
                 (&OF_EXPLICIT, "delete it, or write  method = \"explicit\""),
             ],
             _ => &[(&OF_EXPLICIT, "delete it, or write  method = \"explicit\"")],

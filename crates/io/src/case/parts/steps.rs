@@ -82,6 +82,8 @@ pub struct Dynamics {
     pub method: DynamicMethod,
     /// Whether elements that touch a side of a contact give their mass to nodes off it.
     pub redistributed: Spanned<bool>,
+    /// Whether the forces of contacts without multipliers are weighted with those before.
+    pub weighted: bool,
     /// The local error that increments which adapt may have, over the largest displacement so far; 0: any.
     pub error_tol: f64,
     /// The longest of these in which contact closes or opens, over the time that a wave takes through an element; 0: any.

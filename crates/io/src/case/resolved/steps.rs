@@ -85,8 +85,13 @@ pub(super) fn step(step: &Step) -> Entries {
         };
         let mut entries = vec![("method", method.into())];
         entries.extend(number);
+        entries.push(("contact_mass", contact_mass.into()));
+        entries.extend(
+            dynamics
+                .weighted
+                .then(|| ("contact_force", "weighted".into())),
+        );
         entries.extend([
-            ("contact_mass", contact_mass.into()),
             ("error_tol", dynamics.error_tol.into()),
             ("impact_step", dynamics.impact_step.into()),
         ]);

@@ -118,6 +118,13 @@ static DYNAMICS: Table = Table {
         )
         .or(Default::Text("as-is")),
         key(
+            "contact_force",
+            Shape::Choice(&[word("end"), word("weighted")]),
+            "end: contact acts as a whole, as it is at the end of an increment; weighted: of penalties and curves, with its share of \
+             all forces, and what it was before, as CalculiX does: hard contact flickers then",
+        )
+        .or(Default::Text("end")),
+        key(
             "error_tol",
             NOT_NEGATIVE,
             "of increments that adapt: their local error of displacements, over the largest displacement so far; 0: it does not count",

@@ -53,6 +53,11 @@ fn with_contact_alpha_becomes_a_spectral_radius() {
         said.contains("ALPHA = -0.1 becomes rho_inf = 0.8182"),
         "{said}"
     );
+    // by the laws of CalculiX it stays
+    let read = translated(&dynamic(contact, ", ALPHA=-0.1"), Compat::Ccx).unwrap();
+    let dynamics = read.case.steps[0].dynamics.as_ref().unwrap();
+    assert_eq!(dynamics.method, DynamicMethod::HilberHughesTaylor(-0.1));
+    assert!(dynamics.weighted);
 }
 
 #[test]

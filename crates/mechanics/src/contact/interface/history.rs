@@ -2,6 +2,7 @@
 
 use super::coupled::Coupled;
 use super::memory::Memory;
+use super::weighted::Ends;
 use super::{
     Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, Shift, State,
     TermError, Verdict,
@@ -368,6 +369,9 @@ impl Interface {
         let drift = self.drift.map(|(ratio, node)| [ratio, f64::from(node)]);
         out.put(name("drift"), drift.as_ref().map_or(&[], |d| &d[..]));
         out.put(name("area"), &self.parts.area);
+        if let Some(ends) = self.ends.to_numbers() {
+            out.put(name("ends"), &ends);
+        }
         out.put(name("points"), &self.stored_points());
         let shifts = self.parts.shifts.iter();
         let shifts: Vec<f64> = shifts.flat_map(|s| [s.constant, s.fading]).collect();
@@ -448,6 +452,12 @@ impl Interface {
         area.resize(if area.is_empty() { 0 } else { nrow }, 0.0);
         from.get(&name("area"), &mut area)?;
         self.parts.area = area;
+        self.ends = Ends::default();
+        if let Ok(count) = from.length(&name("ends")) {
+            let mut ends = vec![0.0; count];
+            from.get(&name("ends"), &mut ends)?;
+            self.ends = Ends::from_numbers(&ends);
+        }
         let mut shifts = vec![0.0; from.length(&name("shifts"))?];
         from.get(&name("shifts"), &mut shifts)?;
         let (shifts, _) = shifts.as_chunks();

@@ -25,6 +25,7 @@ mod restless;
 mod reversals;
 mod rows;
 mod term;
+mod weighted;
 
 pub use inherited::inherit;
 pub use near::closest_points;
@@ -52,6 +53,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
+use weighted::Ends;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
 pub struct Interface {
@@ -106,6 +108,8 @@ pub struct Interface {
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
     astray: Vec<(usize, Pair)>,
     gaps: DynamicGaps,
+    /// Forces at the ends of increments, where those before count.
+    ends: Ends,
     /// The length of the increment; 0 where none has begun.
     duration: f64,
 }
@@ -171,6 +175,7 @@ impl Interface {
             drift: None,
             astray: Vec::new(),
             gaps: DynamicGaps::default(),
+            ends: Ends::default(),
             duration: 0.0,
         }
     }
@@ -334,9 +339,10 @@ impl Interface {
     fn allow_for_overlaps(&mut self, from: &State, seen: bool) -> Result<(), TermError> {
         self.allowed.overlaps.clear();
         let left = self.left_of_first_step(from.time);
+        // inertia has overlaps pushed apart at once
         let in_first_step = self
             .first_step
-            .is_some_and(|s| s.number == self.step.number);
+            .is_some_and(|s| s.number == self.step.number && s.scheme.is_none());
         let allows = match self.parts.allowance {
             Allowance::Never => false,
             Allowance::First => left >= 1.0,

@@ -277,6 +277,10 @@ impl Interface {
         }
         let ncolumn = scratch.rows.ncolumn();
         self.add_forces((row, answer), trial, order, scratch);
+        if let Some(share) = self.share_of_end(trial) {
+            let all = scratch.force.iter_mut().chain(&mut scratch.stiffness);
+            all.for_each(|value| *value *= share);
+        }
         scratch.rows.dofs(&self.layout, &mut scratch.dofs);
         self.multiplier_dofs(row, &mut scratch.dofs);
         if let Some(lent) = self.lents.of(row) {

@@ -50,6 +50,7 @@ impl Term for Interface {
         }
         if phase.increment.is_some() {
             self.begin_increment(from)?;
+            self.begin_ends(from)?;
         }
         if !phase.step.is_explicit() {
             return Ok(());
@@ -80,6 +81,9 @@ impl Term for Interface {
             self.act((row, answer), trial, order, scratch, out)?;
         }
         scratch.asked = asked;
+        if chunk == 0 {
+            self.add_before(trial, order, out);
+        }
         Ok(())
     }
 
@@ -159,6 +163,7 @@ impl Adaptive for Interface {
         }
         self.reach_gaps(trial)?;
         self.history.damped[1] = self.damped(trial)?;
+        self.reach_ends(trial)?;
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
             return Ok(limits);
@@ -250,6 +255,7 @@ impl Choices for Interface {
 impl Stored for Interface {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.keep_gaps();
+        self.ends.keep();
         self.history.damped[0] += std::mem::take(&mut self.history.damped[1]);
         self.accepted.clone_from(&self.now);
         self.accepted_judged.clone_from(&self.judged);
