@@ -144,6 +144,34 @@ def test_frames_are_drawn(result: sg.Result, tmp_path: Path) -> None:
     plotter.close()
 
 
+def test_frames_become_an_animation(result: sg.Result, tmp_path: Path) -> None:
+    pytest.importorskip("pyvista")
+    image = pytest.importorskip("PIL.Image")
+    path = result.animate(tmp_path / "p.gif", "contact_pressure", size=(200, 150), fps=10.0)
+    with image.open(path) as picture:
+        assert (picture.n_frames, picture.size, picture.info["duration"]) == (len(result), (200, 150), 100)
+    with image.open(result.animate(tmp_path / "u.png", "displacement", every=2, size=(200, 150))) as picture:
+        assert picture.n_frames == len(result[::2]) > 1
+    with pytest.raises(ValueError, match=r"animations end in .gif, .webp, .png, found"):
+        result.animate(tmp_path / "p.mp4")
+    with pytest.raises(KeyError, match="did you mean 'contact_pressure'"):
+        result.animate(tmp_path / "p.gif", "pressure")
+
+
+def test_an_animation_has_one_range_and_one_view(result: sg.Result) -> None:
+    from signorini import _animation
+
+    low, high = _animation.limits(result, "displacement", None)
+    largest = max(np.linalg.norm(frame["displacement"], axis=1).max() for frame in result)
+    assert (low, high) == (0.0, pytest.approx(largest)) and largest > 0.0
+    low, high = _animation.limits(result, "displacement", 2)
+    assert low == pytest.approx(min(frame["displacement"][:, 2].min() for frame in result)) and low < high
+    box = _animation.bounds(result, 1.0)
+    for frame in result:
+        places = frame.points + frame["displacement"]
+        assert (places >= np.array(box[::2]) - 1e-12).all() and (places <= np.array(box[1::2]) + 1e-12).all()
+
+
 def test_contacts_are_drawn_alone(result: sg.Result, tmp_path: Path) -> None:
     pytest.importorskip("pyvista")
     contact = result[-1].contact["floor"]

@@ -434,6 +434,13 @@ class Frame:
             points, cells, point_data={name: np.array(self[name]) for name in self.names}, cell_data=parts
         )
 
+    def shown(self, name: str) -> Floats:
+        """A field at nodes, or else in cells. Raises `KeyError` with the closest name where there is none."""
+        known = [*self.names, *self.cell_names]
+        if name not in known:
+            raise KeyError(f"no field is called {name!r}{did_you_mean(name, known)}")
+        return self[name] if name in self else self.cell(name)
+
     def plotter(
         self,
         name: str = "von_mises",
@@ -445,9 +452,7 @@ class Frame:
     ) -> Any:
         """A plotter of PyVista with a field on the deformed mesh; without a window where there is no display."""
         need("pyvista", "Frame.plot")
-        known = [*self.names, *self.cell_names]
-        if name not in known:
-            raise KeyError(f"no field is called {name!r}{did_you_mean(name, known)}")
+        self.shown(name)
         title = f"{self.step}  t = {self.time:g}"
         grid = self.to_pyvista(warp=warp)
         return plotter_of(grid, name, component, title, self._mesh.dim == 2, off_screen, options)
@@ -715,6 +720,31 @@ class Result(Sequence[Frame]):
     ) -> str:
         """Writes a picture of the last frame; see `Frame.screenshot`."""
         return self[-1].screenshot(path, name, warp, **options)
+
+    def animate(
+        self,
+        path: str | os.PathLike[str],
+        name: str = "von_mises",
+        warp: float = 1.0,
+        *,
+        component: int | None = None,
+        every: int = 1,
+        fps: float = 12.0,
+        size: tuple[int, int] = (640, 480),
+        **options: Any,
+    ) -> str:
+        """Writes frames as an animated picture, .gif, .webp or .png by the ending of the path, and returns the path.
+
+        All frames, or one of `every` so many, show a field on the mesh, deformed `warp` times, from one place and with one range
+        of colours. `size` is in pixels; further options are those of PyVista's `add_mesh`.
+
+        Raises `ValueError` for another ending, and where there are no frames.
+        """
+        from ._animation import write
+
+        if not len(self):
+            raise ValueError(f"there are no frames: {self.error or self.status}")
+        return write(path, self[::every], name, warp, component=component, fps=fps, size=size, **options)
 
     def report(self, path: str | os.PathLike[str], *, compare: Result | str | os.PathLike[str] | None = None) -> str:
         """Writes the report as one HTML page that works offline, and returns its path.
