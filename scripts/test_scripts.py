@@ -642,6 +642,34 @@ class SpeedFigure(unittest.TestCase):
         self.assertAlmostEqual(script.exponent(found["signorini"]), 1.0, places=9)
 
 
+class EnergyFigure(InFolder):
+    """What energy_figure.py draws of a history."""
+
+    def write(self, *rows):
+        names = ("internal", "kinetic", "contact", "friction", "damping", "algorithmic", "external")
+        text = "time," + ",".join(f"energy.{name}" for name in names) + "\n"
+        with open(self.path("history.csv"), "w", encoding="utf-8") as file:
+            file.write(text + "".join(",".join(map(str, row)) + "\n" for row in rows))
+
+    def test_increments_without_energies_are_left_out(self):
+        sys.path.insert(0, HERE)
+        script = __import__("energy_figure")
+        self.write((1.0, 0, 0, 0, 0, 0, 0, 0), (1.5, 2, 3, 0, 1, 0, 0, 6), (2.0, 1, 4, 0, 1, 0, 0, 6))
+        time, energy = script.energies(self.folder)
+        self.assertEqual(list(time), [1.5, 2.0])
+        self.assertEqual((list(energy["kinetic"]), list(energy["external"])), ([3.0, 4.0], [6.0, 6.0]))
+        output = self.path("energies.png")
+        code, said = run("energy_figure.py", self.folder, "-o", output)
+        self.assertEqual(code, 0, said)
+        self.assertGreater(pyvista.read(output).dimensions[0], 800)
+
+    def test_a_run_without_a_motion_is_an_error_of_its_own(self):
+        self.write((1.0, 0, 0, 0, 0, 0, 0, 0))
+        code, said = run("energy_figure.py", self.folder)
+        self.assertEqual(code, 2, said)
+        self.assertIn("no increment has an energy", said)
+
+
 class HertzBodies(unittest.TestCase):
     """The pressure under a ball on a block, as hertz_bodies.py computes it."""
 
