@@ -187,14 +187,22 @@ impl Translation<'_> {
         Some(name)
     }
 
-    /// Elements that move as a whole have no material.
+    /// Elements that move as a whole have no material but for their mass.
     fn rigid_body(&mut self, group: Name, reference: Name, place: &Place) {
+        let mut before = self.case.bodies.iter();
+        let before = before.rfind(|body| body.groups == [group.clone()]);
+        let material = before.and_then(|body| body.material.clone());
+        let is_heavy = |name: &Name| {
+            let mut all = self.case.materials.iter();
+            all.any(|one| one.name.value == name.value && one.density.is_some())
+        };
+        let material = material.filter(is_heavy);
         self.case
             .bodies
             .retain(|body| body.groups != [group.clone()]);
         self.case.bodies.push(Body {
             groups: vec![group],
-            material: None,
+            material,
             integration: Default::default(),
             locking: Default::default(),
             orientation: None,
