@@ -91,6 +91,8 @@ pub enum Place {
     Cells(Vec<CellId>),
     /// On a carrier.
     Carrier(RigidId),
+    /// On all mass that is not of cells of bodies that deform: on rigid bodies, and on masses at nodes that follow none.
+    Points,
 }
 
 /// A load in its place.
@@ -121,6 +123,7 @@ impl Acting {
     pub fn is_alike(&self, other: &Self) -> bool {
         let alike = match (&self.place, &other.place) {
             (Place::Carrier(a), Place::Carrier(b)) => return a == b,
+            (Place::Points, Place::Points) => true,
             (Place::Nodes(a), Place::Nodes(b)) => set(a) == set(b),
             (Place::Faces(a), Place::Faces(b)) => set(a) == set(b),
             (Place::Cells(a), Place::Cells(b)) => set(a) == set(b),
@@ -211,6 +214,12 @@ pub enum LoadError {
     /// A node that no body has and no constraint names: the load would be lost.
     #[error("node {node} belongs to no body")]
     Loose {
+        /// The node, as numbered in the input.
+        node: u64,
+    },
+    /// A node of which a mass is all it has, in a model with static steps: nothing holds it there.
+    #[error("node {node} has a mass alone, and nothing holds it in static steps")]
+    Alone {
         /// The node, as numbered in the input.
         node: u64,
     },

@@ -44,7 +44,7 @@
 //! | [`Wrench`] | carriers |
 //! | [`Traction`], [`Pressure`] | faces |
 //! | [`BodyForce`] | cells, by volume |
-//! | [`Gravity`] | cells, by mass; carriers with a mass |
+//! | [`Gravity`] | cells, by mass; carriers with a mass, and masses at nodes |
 //! | [`Spin`] | cells, by mass |
 //!
 //! To add a load: a file that implements [`Load`] and describes its keys in an `ENTRY`, a line above and in [`TABLE`]. A

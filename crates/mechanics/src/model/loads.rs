@@ -23,7 +23,10 @@ pub(super) fn terms(
     let mut terms = Vec::new();
     for (part, schedule) in schedules(steps, loads)? {
         for (part, schedule) in context.parts_of(part, schedule, steps)? {
-            terms.extend(context.load(&part, schedule, steps)?);
+            match part.load.place {
+                Place::Points => terms.extend(context.on_points(&part, &schedule, steps)?),
+                _ => terms.extend(context.load(&part, schedule, steps)?),
+            }
         }
     }
     Ok(terms)
@@ -95,7 +98,7 @@ impl Context<'_> {
         let cells: Vec<CellId> = match &part.load.place {
             Place::Faces(faces) => faces.iter().map(|face| face.cell).collect(),
             Place::Cells(cells) => cells.clone(),
-            Place::Nodes(_) | Place::Carrier(_) => Vec::new(),
+            Place::Nodes(_) | Place::Carrier(_) | Place::Points => Vec::new(),
         };
         if !cells.iter().any(|&cell| self.activity.names(cell)) {
             return Ok(vec![(part, schedule)]);
@@ -170,10 +173,11 @@ impl Context<'_> {
                         let node = label(self.mesh, node);
                         return Err(named(LoadError::Loose { node }));
                     }
+                    self.moves(node, steps).map_err(named)?;
                 }
                 self.site(part, schedule.clone())
             }
-            Place::Faces(_) | Place::Cells(_) => self.site(part, schedule.clone()),
+            Place::Faces(_) | Place::Cells(_) | Place::Points => self.site(part, schedule.clone()),
         };
         match load.effect(site.map_err(named)?).map_err(named)? {
             Effect::Term(term) => Ok(Some(term)),
@@ -182,6 +186,54 @@ impl Context<'_> {
                 Ok(term.map(|t| Box::new(t) as Box<dyn Term>))
             }
         }
+    }
+
+    /// Refuses static steps where nothing but its mass resists a load on a node.
+    fn moves(&self, node: NodeId, steps: &[Step]) -> Result<(), LoadError> {
+        let is_alone = self.singles.alone.get(node as usize) == Some(&true);
+        match is_alone && steps.iter().any(Step::is_static) {
+            true => Err(LoadError::Alone {
+                node: label(self.mesh, node),
+            }),
+            false => Ok(()),
+        }
+    }
+
+    /// A load by mass on rigid bodies, and on masses at nodes that follow none.
+    fn on_points(
+        &self,
+        part: &LoadPart,
+        schedule: &Schedule,
+        steps: &[Step],
+    ) -> Result<Vec<Box<dyn Term>>, ModelError> {
+        let (name, load) = (&part.name, &part.load.load);
+        let by_mass = load.properties().domain == Domain::Mass;
+        let named = |source| ModelError::Load {
+            load: name.clone(),
+            source,
+        };
+        let force = |mass: f64| {
+            let wrench = load.resultant(mass).filter(|_| by_mass);
+            let force = wrench.map(|[force, _]| force);
+            force.ok_or_else(|| named(LoadError::Misplaced))
+        };
+        let mut terms: Vec<Box<dyn Term>> = Vec::new();
+        for body in self.heavy.iter() {
+            let name = format!("{name} of {}", self.carrier_name(body.carrier));
+            let force = force(body.mass)?;
+            let weight = Weight::new(name, self.layout, *body, force, schedule.clone());
+            terms.push(Box::new(weight));
+        }
+        let mut forces = Vec::new();
+        for &(node, mass) in self.singles.masses {
+            if self.elimination.body_of(node).is_none() {
+                self.moves(node, steps).map_err(named)?;
+                forces.push((node, force(mass)?));
+            }
+        }
+        let dead = self.dead(name, &self.at_nodes(forces), schedule.clone());
+        terms.extend(dead.map(|term| Box::new(term) as Box<dyn Term>));
+        Ok(terms)
     }
 
     /// Where a load acts, apart from carriers.

@@ -64,7 +64,7 @@ use crate::system::{Layout, NodalField, System, Term};
 use bodies::{between, nodes_by_body, owners};
 use constraints::Followers;
 use contact::{Sides, Source};
-use context::Context;
+use context::{Context, Singles};
 use held::Held;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::Bodies;
@@ -188,11 +188,11 @@ impl Model {
         let (modulus, shear_modulus) = moduli(bodies);
         something_deforms(&modulus, &parts)?;
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
+        let singles = Singles::new(&body_of_node, &followers, &parts.masses);
         let temperature = temperatures(parts.temperature, &parts.steps);
-        let loose = loose(&body_of_node, &parts.constraints, &parts.springs);
         let mut context = Context {
             mesh,
-            loose: &loose,
+            singles: &singles,
             reference: &reference,
             owner: &owner,
             modulus: &modulus,
@@ -332,24 +332,6 @@ impl Followers<'_> {
         }
         held
     }
-}
-
-/// Whether each node belongs to no body and is named by no constraint and no spring: nothing follows from a load on it.
-fn loose(
-    body_of_node: &[u32],
-    constraints: &[ConstraintPart],
-    springs: &[SpringPart],
-) -> Vec<bool> {
-    let mut loose: Vec<bool> = body_of_node.iter().map(|&body| body == u32::MAX).collect();
-    let of_constraints = constraints.iter().flat_map(|one| one.kind.nodes());
-    let ends = springs.iter().flat_map(|spring| &spring.ends);
-    let of_springs = ends.flat_map(|&(a, b)| [Some(a), b]).flatten();
-    for node in of_constraints.chain(of_springs) {
-        if let Some(loose) = loose.get_mut(node as usize) {
-            *loose = false;
-        }
-    }
-    loose
 }
 
 /// Nodes of no body, given the body of each.

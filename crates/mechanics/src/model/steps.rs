@@ -59,12 +59,12 @@ impl Context<'_> {
         }
     }
 
-    /// Whether a node belongs to no body, and no constraint and no spring names it.
+    /// Whether a node belongs to no body, no constraint and no spring names it, and it has no mass.
     pub(super) fn is_loose(&self, node: NodeId) -> bool {
-        self.loose.get(node as usize) == Some(&true)
+        self.singles.loose.get(node as usize) == Some(&true)
     }
 
-    fn carrier_name(&self, carrier: RigidId) -> String {
+    pub(super) fn carrier_name(&self, carrier: RigidId) -> String {
         let part = self.carriers.get(carrier as usize);
         part.map(|c| c.name.clone()).unwrap_or_default()
     }
@@ -252,15 +252,19 @@ impl Context<'_> {
         let layout = &self.layout;
         let mut dofs = Vec::new();
         for part in loads {
-            let Place::Carrier(carrier) = part.load.place else {
-                continue;
+            let carriers: Vec<RigidId> = match part.load.place {
+                Place::Carrier(carrier) => vec![carrier],
+                Place::Points => self.heavy.iter().map(|body| body.carrier).collect(),
+                _ => continue,
             };
             // the direction of a weight is enough
             let [force, moment] = part.load.load.resultant(1.0).unwrap_or_default();
             let values = force.to_array().into_iter().chain(moment.to_array());
             for (component, _) in values.enumerate().filter(|(_, value)| *value != 0.0) {
-                self.may_move(step, carrier, component)?;
-                dofs.push(layout.carrier_motion(carrier, component));
+                for &carrier in &carriers {
+                    self.may_move(step, carrier, component)?;
+                    dofs.push(layout.carrier_motion(carrier, component));
+                }
             }
         }
         dofs.retain(|&dof| dof != NO_DOF);

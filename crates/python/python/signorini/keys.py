@@ -684,7 +684,7 @@ class Initial(Table):
 
 
 class Mass(Table):
-    """Masses at nodes, of references and rigid bodies, in dynamic steps; masses of one reference add up.
+    """Masses at nodes, of references and rigid bodies, in dynamic steps, natural modes and by gravity; masses of one node or reference add up.
 
     TOML: `mass`.
     """
@@ -2203,7 +2203,7 @@ class CaseTable(Table):
     initial: One[Initial] = One(Initial, "Fields at the start", "a table")
     mass: Items[Mass] = Items(
         Mass,
-        "Masses at nodes, of references and rigid bodies, in dynamic steps; masses of one reference add up",
+        "Masses at nodes, of references and rigid bodies, in dynamic steps, natural modes and by gravity; masses of one node or reference add up",
         "list of a table",
     )
     materials: Named[Material] = Named(Material, "Materials", "tables by name", key="material")

@@ -114,13 +114,9 @@ impl Carriers {
         self.heavy.contains(&carrier)
     }
 
-    /// Those that have a mass.
-    pub fn with_mass(&self) -> impl Iterator<Item = (RigidId, &str)> {
-        let name = |&carrier: &RigidId| {
-            let part = self.parts.get(carrier as usize)?;
-            Some((carrier, &part.name[..]))
-        };
-        self.heavy.iter().filter_map(name)
+    /// Whether some have a mass.
+    pub fn has_heavy(&self) -> bool {
+        !self.heavy.is_empty()
     }
 
     /// The one name, of those a carrier has, that histories use.

@@ -13,7 +13,7 @@ use signorini_mechanics::load::{self, Acting, Domain, Load, Place};
 use signorini_mechanics::model::{BodyKind, BodyPart, ConstraintKind, ConstraintPart};
 use signorini_mechanics::system::Idealisation;
 use signorini_vocabulary::Entry;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 /// What a load is called: by its own name, or by its step and its number there.
@@ -53,23 +53,6 @@ fn acting(load: &case::Load, found: &mut Diagnostics) -> Option<Arc<dyn Load>> {
     Some(following.unwrap_or(acts))
 }
 
-/// The load on everything that has a mass, besides cells of bodies that deform: on rigid bodies, with their names.
-pub(super) fn on_rigid_bodies(
-    load: &case::Load,
-    acting: &Acting,
-    carriers: &Carriers,
-) -> Vec<(String, Acting)> {
-    if load.on.as_str() != ALL || !acts_by_mass(acting.load.as_ref()) {
-        return Vec::new();
-    }
-    let on = |(carrier, name): (RigidId, &str)| {
-        let place = Place::Carrier(carrier);
-        let load = acting.load.clone();
-        (name.to_owned(), Acting { load, place })
-    };
-    carriers.with_mass().map(on).collect()
-}
-
 /// Whether a load acts on what moves as a whole by its mass.
 fn acts_by_mass(load: &dyn Load) -> bool {
     load.properties().domain == Domain::Mass && load.resultant(1.0).is_some()
@@ -84,17 +67,59 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The load in its place; nothing where it cannot act on the named set.
-    pub fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Option<Acting> {
-        let acts = acting(load, found)?;
-        let place = match self.carriers.get(&load.on) {
-            Some(carrier) => {
-                self.check_carrier(load, acts.as_ref(), carrier, found)?;
-                Place::Carrier(carrier)
-            }
-            None => self.place(load, acts.as_ref(), found)?,
+    /// The load in its place, and what of it acts on masses that are not of bodies that deform; nothing where it cannot act on
+    /// the named set.
+    pub fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Vec<Acting> {
+        let Some(acts) = acting(load, found) else {
+            return Vec::new();
         };
-        Some(Acting { load: acts, place })
+        if let Some(carrier) = self.carriers.get(&load.on) {
+            let place = self.check_carrier(load, acts.as_ref(), carrier, found);
+            let place = place.map(|()| Place::Carrier(carrier));
+            return Vec::from_iter(place.map(|place| Acting { load: acts, place }));
+        }
+        let on_masses = self.on_masses(load, &acts);
+        let has_cells = on_masses.is_none() || self.names.has_cells(&load.on);
+        let place = has_cells.then(|| self.place(load, acts.as_ref(), found));
+        let on_place = place.flatten().map(|place| Acting { load: acts, place });
+        // where nothing deforms there are no cells
+        let is_left = |one: &Acting| on_masses.is_none() || !one.is_nowhere();
+        let on_place = on_place.filter(is_left);
+        on_place.into_iter().chain(on_masses).collect()
+    }
+
+    /// A load by mass on masses that are not of bodies that deform: on all, on those given to the named set, or at its nodes
+    /// where it has no cells.
+    fn on_masses(&self, load: &case::Load, acts: &Arc<dyn Load>) -> Option<Acting> {
+        let masses = &self.case.masses;
+        if !acts_by_mass(acts.as_ref()) {
+            return None;
+        }
+        if load.on.as_str() == ALL {
+            let has_points = !masses.is_empty() || self.carriers.has_heavy();
+            return has_points.then(|| Acting {
+                load: Arc::clone(acts),
+                place: Place::Points,
+            });
+        }
+        // names that are not there are reported where they stand
+        let nodes_of = |name| self.names.nodes(name, &mut Diagnostics::new());
+        let own: BTreeSet<NodeId> = match self.names.has_cells(&load.on) {
+            true => BTreeSet::new(),
+            false => nodes_of(&load.on).into_iter().flatten().collect(),
+        };
+        let mut forces = Vec::new();
+        let at_nodes = masses
+            .iter()
+            .filter(|one| self.carriers.get(&one.on).is_none());
+        for one in at_nodes {
+            let is_named = one.on == load.on;
+            let nodes = nodes_of(&one.on).unwrap_or_default().into_iter();
+            let [force, _] = acts.resultant(one.value)?;
+            let loaded = nodes.filter(|node| is_named || own.contains(node));
+            forces.extend(loaded.map(|node| (node, force)));
+        }
+        (!forces.is_empty()).then(|| Acting::forces(forces))
     }
 
     /// Where a load acts that does not act on a carrier.

@@ -192,9 +192,10 @@ pub(super) fn unfit(case: &Case, mesh: &Mesh) -> Option<Diagnostic> {
     let space = &case.model.space;
     let (found, wanted) = (mesh.dim(), space.ndim());
     let of_bars = || case.bodies.iter().any(|body| body.area.is_some());
-    let of_springs = || case.bodies.is_empty() && !case.springs.is_empty();
+    let of_points =
+        || case.bodies.is_empty() && !(case.springs.is_empty() && case.masses.is_empty());
     let suits = match found {
-        0 => of_springs(),
+        0 => of_points(),
         _ => found == wanted || found < wanted && of_bars(),
     };
     if !suits {

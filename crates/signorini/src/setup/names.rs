@@ -317,6 +317,12 @@ impl<'a> Names<'a> {
         cells
     }
 
+    /// Whether a set has elements.
+    pub fn has_cells(&self, name: &Name) -> bool {
+        let set = self.sets.get(&name.value);
+        set.is_some_and(|set| !set.cells.is_empty())
+    }
+
     /// The groups and sets that list an element.
     pub fn groups_of(&self, cell: CellId) -> impl Iterator<Item = &str> {
         let lists = move |(name, set): &(&String, &Set)| *name != ALL && set.cells.contains(&cell);

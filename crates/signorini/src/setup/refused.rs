@@ -333,6 +333,10 @@ fn of_load_error(error: &LoadError) -> (&'static Code, &'static str) {
             &codes::BAD_LOAD,
             "load nodes of a [[body]]; a set by place takes those of a body with  of = \"BODY\"",
         ),
+        LoadError::Alone { .. } => (
+            &codes::BAD_LOAD,
+            "join the node to a body by a [[constraint]] or a [[spring]], or write  kind = \"dynamic\"  in all steps",
+        ),
         LoadError::Misplaced | LoadError::NoFace { .. } | LoadError::NoVolume { .. } => (
             &codes::WRONG_KIND,
             "name something that this load can act on",

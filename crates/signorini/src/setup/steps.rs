@@ -198,26 +198,16 @@ impl Builder<'_> {
                 carriers: self.carriers,
                 bodies: self.bodies,
             };
-            if let Some(what) = context.load(load, found) {
+            for (number, acting) in context.load(load, found).into_iter().enumerate() {
                 let name = loads::name(step, place, load);
-                let course = self.course(step, &load.course);
-                let on_rigid = loads::on_rigid_bodies(load, &what, self.carriers);
-                // where nothing deforms there are no cells
-                let is_left = on_rigid.is_empty() || !what.is_nowhere();
-                for (of, load) in on_rigid {
-                    parts.push(LoadPart {
-                        name: format!("{name} of {of}"),
-                        load,
-                        course: course.clone(),
-                    });
-                }
-                if is_left {
-                    parts.push(LoadPart {
-                        name,
-                        load: what,
-                        course,
-                    });
-                }
+                parts.push(LoadPart {
+                    name: match number {
+                        0 => name,
+                        _ => format!("{name} of masses"),
+                    },
+                    load: acting,
+                    course: self.course(step, &load.course),
+                });
             }
             if let Some(coupling) = context.coupling(load, found) {
                 coupling.join(number == 0, couplings, found);

@@ -347,7 +347,8 @@ const COMPONENT: Shape = Shape::Choice(&[
 
 pub(super) static MASS: Table = Table {
     heading: "[[mass]]",
-    doc: "masses at nodes, of references and rigid bodies, in dynamic steps; masses of one reference add up",
+    doc: "masses at nodes, of references and rigid bodies, in dynamic steps, natural modes and by gravity; masses of one node or \
+          reference add up",
     keys: &[
         key("on", Shape::Text, "the set, group, reference or rigid body")
             .required()
