@@ -39,6 +39,12 @@ impl Translation<'_> {
         let mut single: Vec<u64> = Vec::new();
         for row in card.rows() {
             for field in row.iter().filter(|field| !field.text.is_empty()) {
+                if !self.weighed(card, field).is_empty() {
+                    let text = format!("*MODEL CHANGE of MASS elements in `{}`", field.text);
+                    let remark = "masses at nodes are neither removed nor added";
+                    self.error(&codes::NOT_BUILT, text, &field.place(), remark);
+                    continue;
+                }
                 for target in self.targets(card, Some(field), Kind::Elements) {
                     match target {
                         Target::Set(name) if !groups.contains(&name) => groups.push(name),

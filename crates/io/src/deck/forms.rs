@@ -155,6 +155,8 @@ fn property(card: &Statement) -> Option<Form> {
             each(SOME, (1, 2), "coefficient, temperature")
         }
         "FRICTION" => each(SOME, (1, 2), "coefficient, slope of sticking"),
+        "MASS" => each(ONE, (1, 1), "mass"),
+        "ROTARYINERTIA" => each(ONE, (3, 6), "I11, I22, I33, I12, I13, I23"),
         "PLASTIC" => each(SOME, (2, 3), "yield stress, plastic strain, temperature"),
         "HYPERELASTIC" if card.peek("OGDEN").is_some() => {
             let n = terms?;

@@ -124,7 +124,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "DISTRIBUTION TABLE",
         "what a distribution is made of follows from its use",
     ),
-    read("DLOAD", "P and P1 to P6, GRAV, CENTRIF; AMPLITUDE, OP"),
+    read(
+        "DLOAD",
+        "P and P1 to P6, GRAV, CENTRIF; of MASS elements GRAV; AMPLITUDE, OP",
+    ),
     read("DSLOAD", "P; AMPLITUDE, OP"),
     read("DYNAMIC", "DIRECT, ALPHA, EXPLICIT"),
     ignored("EL FILE", "all fields are written anyway"),
@@ -137,7 +140,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "isotropic, by temperature; ENGINEERING CONSTANTS, ORTHO, ANISO",
     ),
     ignored("ELECTRICAL CONDUCTIVITY", "only of currents"),
-    read("ELEMENT", "solids in space and in the plane"),
+    read(
+        "ELEMENT",
+        "solids in space and in the plane; MASS, ROTARYI, springs",
+    ),
     ignored("ELEMENT OUTPUT", "all fields are written anyway"),
     read("ELSET", "GENERATE"),
     ignored("END ASSEMBLY", ""),
@@ -189,6 +195,7 @@ pub const KEYWORDS: &[Keyword] = &[
     read("KINEMATIC", "with COUPLING"),
     ignored("LATENT HEAT", "only of heat: temperatures are given"),
     ignored("MAGNETIC PERMEABILITY", "only of currents"),
+    read("MASS", "of MASS elements, each with the mass given"),
     read("MATERIAL", ""),
     read("MEMBRANE", "of no elements; membranes are not built"),
     refused("MEMBRANE SECTION", "membranes are not built yet"),
@@ -226,6 +233,10 @@ pub const KEYWORDS: &[Keyword] = &[
     read(
         "RIGID BODY",
         "NSET, ELSET; REF NODE, else the mean of its nodes; ROT NODE",
+    ),
+    read(
+        "ROTARY INERTIA",
+        "of ROTARYI elements, at nodes of rigid bodies and couplings",
     ),
     ignored(
         "SECTION CONTROLS",

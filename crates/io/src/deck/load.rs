@@ -26,6 +26,10 @@ enum Where {
     Surface(String),
     /// On all mass of an element set, by a line that no other one is like.
     Mass(Target, String),
+    /// On a mass at a node, of such a set and line.
+    Weight(u64, Target, String),
+    /// On a mass of a reference, likewise.
+    WeightOf(String, Target, String),
 }
 
 /// What acts there.
@@ -80,7 +84,10 @@ fn is_concentrated(at: &Where) -> bool {
 }
 
 fn is_distributed(at: &Where) -> bool {
-    matches!(at, Where::Side(..) | Where::Mass(..))
+    matches!(
+        at,
+        Where::Side(..) | Where::Mass(..) | Where::Weight(..) | Where::WeightOf(..)
+    )
 }
 
 fn is_on_surface(at: &Where) -> bool {
@@ -228,9 +235,17 @@ impl Translation<'_> {
 
     /// A line of *DLOAD.
     fn distributed(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, Chosen)> {
-        let targets = self.targets(card, row.first(), Kind::Elements);
         let place = row.first().map_or(card.place.clone(), Field::place);
         let label = row.get(1).map(Field::key).unwrap_or_default();
+        let weights = row.first().map(|field| self.weighed(card, field));
+        let weights = weights.unwrap_or_default();
+        let targets = self.besides(card, row.first(), &weights);
+        if label != "GRAV" && !weights.is_empty() {
+            let text = format!("*DLOAD: {label} does not act on MASS elements");
+            let remark = "GRAV does; of others write the forces, by *CLOAD";
+            self.error(&codes::NOT_BUILT, text, &place, remark);
+            return Vec::new();
+        }
         let [value, x, y, z, a, b, c] = self.reals(row.get(2..).unwrap_or_default());
         let mass = |target: &Target| Where::Mass(target.clone(), format!("{label} {x} {y} {z}"));
         let on_mass = |kind: Chosen| -> Vec<(Where, Chosen)> {
@@ -247,7 +262,32 @@ impl Translation<'_> {
                     self.error(&codes::OUT_OF_RANGE, text, &place, "GRAV, g, nx, ny, nz");
                     return Vec::new();
                 };
-                on_mass(vector("gravity", (direction * value).to_array()))
+                if let Some(rigid) = targets
+                    .iter()
+                    .find_map(|target| self.rigid_with_masses(target))
+                {
+                    let text =
+                        format!("GRAV on rigid body `{rigid}`, which has MASS elements, too");
+                    let remark = "by *RIGID BODY, NSET= elements keep a weight of their own";
+                    self.error(&codes::NOT_BUILT, text, &place, remark);
+                }
+                let gravity = direction * value;
+                let mut all = on_mass(vector("gravity", gravity.to_array()));
+                let line = format!("{label} {x} {y} {z}");
+                for ((of, node), mass) in weights {
+                    let force = (gravity * mass).to_array();
+                    all.push(match self.carriers.get(&node) {
+                        Some(carrier) => (
+                            Where::WeightOf(carrier.name.clone(), of, line.clone()),
+                            vector("force", force),
+                        ),
+                        None => (
+                            Where::Weight(node, of, line.clone()),
+                            vector("per_node", force),
+                        ),
+                    });
+                }
+                all
             }
             "CENTRIF" => {
                 if value < 0.0 {
@@ -337,7 +377,9 @@ impl Translation<'_> {
     fn members_named(&mut self, members: &BTreeSet<Where>, place: &Place) -> Name {
         let named = |name: &str| Spanned::new(name.to_owned(), place.clone());
         match members.first() {
-            Some(Where::Reference(name, ..) | Where::Surface(name)) => named(name),
+            Some(Where::Reference(name, ..) | Where::Surface(name) | Where::WeightOf(name, ..)) => {
+                named(name)
+            }
             Some(Where::Mass(Target::Set(name), _)) => named(name),
             Some(Where::Mass(Target::One(element), _)) => {
                 self.elements_named(vec![*element], place)
@@ -351,7 +393,7 @@ impl Translation<'_> {
             }
             _ => {
                 let nodes = members.iter().filter_map(|at| match at {
-                    Where::Node(label, _) => Some(*label),
+                    Where::Node(label, _) | Where::Weight(label, ..) => Some(*label),
                     _ => None,
                 });
                 self.nodes_named(nodes.collect(), place)
@@ -412,7 +454,7 @@ fn likeness(what: &What) -> u64 {
 
 /// Whether others may be one load with it.
 fn may_go_together(at: &Where) -> bool {
-    matches!(at, Where::Node(..) | Where::Side(..))
+    matches!(at, Where::Node(..) | Where::Side(..) | Where::Weight(..))
 }
 
 /// Whether two may be one load.
@@ -420,6 +462,7 @@ fn goes_with(a: &Where, b: &Where) -> bool {
     match (a, b) {
         (Where::Node(_, a), Where::Node(_, b)) => a == b,
         (Where::Side(..), Where::Side(..)) => true,
+        (Where::Weight(_, a, by), Where::Weight(_, b, with)) => a == b && by == with,
         _ => false,
     }
 }

@@ -7,6 +7,7 @@
 //!                                  sections    elements that have none, or one that is not theirs
 //!                                  model       sections, amplitudes, initial conditions
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
+//!                                  mass        masses at nodes and of references, and their weight
 //!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps
 //!                                  submodel    nodes that move as those of another model
@@ -35,6 +36,7 @@ mod general;
 mod interaction;
 mod keywords;
 mod load;
+mod mass;
 mod material;
 mod model;
 mod motion;
@@ -107,6 +109,7 @@ pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Rea
     translation.model();
     translation.elements_without_section();
     translation.constraints();
+    translation.point_masses();
     translation.springs();
     translation.contacts();
     translation.submodels();

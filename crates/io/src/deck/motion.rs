@@ -90,6 +90,11 @@ impl Translation<'_> {
                         self.error(&codes::NOT_BUILT, text, &card.place, remark);
                     }
                     let own = material.as_ref().filter(|_| self.compat != Compat::Ccx);
+                    if mass > 0.0 && own.is_none() && !self.point_masses.is_empty() {
+                        let text = "ALPHA of *DAMPING does not damp MASS elements here";
+                        let remark = "only bodies with a material are damped";
+                        self.warn(text, &card.place, remark);
+                    }
                     let damped = self.case.materials.iter_mut();
                     let damped =
                         damped.filter(|one| own.is_none_or(|own| compared(&one.name) == *own));

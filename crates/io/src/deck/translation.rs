@@ -42,6 +42,8 @@ pub(super) struct Translation<'d> {
     pub amplitudes: BTreeMap<String, usize>,
     pub pairs: Vec<contact::Pair>,
     pub submodels: Vec<submodel::Submodel>,
+    /// The node and the mass of each MASS element.
+    pub point_masses: BTreeMap<u64, (u64, f64)>,
     nodes: Lookup,
     /// Places of elements among those of the mesh's dimension.
     elements: Lookup,
@@ -122,6 +124,7 @@ impl<'d> Translation<'d> {
             amplitudes: BTreeMap::new(),
             pairs: Vec::new(),
             submodels: Vec::new(),
+            point_masses: BTreeMap::new(),
             nodes: Lookup::new(&mesh.node_labels),
             elements: Lookup::new(&labels),
             cells,

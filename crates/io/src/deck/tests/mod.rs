@@ -2,6 +2,7 @@ mod constraints;
 mod contact;
 mod frequency;
 mod general;
+mod mass;
 mod materials;
 mod motion;
 mod sections;

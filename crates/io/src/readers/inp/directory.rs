@@ -4,7 +4,7 @@ use super::card::key;
 use super::definition::Family;
 use crate::diagnostic::Place;
 use signorini_geometry::mesh::CellId;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// What a name in a deck is a name of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,16 @@ pub struct Special {
     pub label: u64,
     /// The numbers of its nodes in the mesh.
     pub nodes: Vec<u64>,
+    /// The number of its *ELEMENT card.
+    pub(super) card: Option<u32>,
+}
+
+impl Special {
+    /// Whether both are of one *ELEMENT card.
+    #[must_use]
+    pub fn is_with(&self, other: &Self) -> bool {
+        (self.card, &self.kind) == (other.card, &other.kind)
+    }
 }
 
 /// An *ELEMENT card.
@@ -71,6 +81,8 @@ pub struct Directory {
     pub(super) instances: BTreeMap<String, usize>,
     /// The spaces of each scope of the deck.
     pub(super) scopes: Vec<Vec<usize>>,
+    /// The spaces of instances that are turned.
+    pub(super) turned: Vec<usize>,
     /// The type of each cell, in capitals, by block and cell.
     pub(super) types: Vec<Vec<u32>>,
     pub(super) type_names: Vec<String>,
@@ -98,6 +110,13 @@ impl Directory {
     #[must_use]
     pub fn spaces(&self, scope: usize) -> &[usize] {
         self.scopes.get(scope).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a scope of the deck stands for instances that are turned.
+    #[must_use]
+    pub fn is_turned(&self, scope: usize) -> bool {
+        let mut spaces = self.spaces(scope).iter();
+        spaces.any(|space| self.turned.contains(space))
     }
 
     /// The space and the rest of a name such as `part-1.top`, as the assembly writes it.
@@ -159,13 +178,27 @@ impl Directory {
         (&self.type_names, &self.types)
     }
 
+    /// The elements that are no cells.
+    #[must_use]
+    pub fn specials(&self) -> &[Special] {
+        &self.special
+    }
+
+    /// The *ELEMENT card of an element that is no cell.
+    #[must_use]
+    pub fn card_of_special(&self, one: &Special) -> Option<&ElementCard> {
+        self.element_cards.get(one.card? as usize)
+    }
+
     /// The elements that are no cells, of an element set.
     pub fn special(&self, space: usize, name: &str) -> impl Iterator<Item = &Special> {
-        let of = self
-            .spaces
-            .get(space)
-            .and_then(|s| s.special.get(&key(name)));
-        let labels = of.map_or(&[][..], Vec::as_slice);
+        let name = name.trim_matches('"');
+        let of = |space: usize, name: &str| self.spaces.get(space)?.special.get(&key(name));
+        let labels = of(space, name).or_else(|| {
+            let (within, rest) = self.qualified(space, name)?;
+            of(within, rest)
+        });
+        let labels: HashSet<u64> = labels.into_iter().flatten().copied().collect();
         self.special
             .iter()
             .filter(move |one| labels.contains(&one.label))

@@ -179,6 +179,11 @@ impl Kind {
         self.name.starts_with("SPRING")
     }
 
+    /// Whether it is a point with a mass, or with moments of inertia.
+    pub fn is_mass(&self) -> bool {
+        ["MASS", "ROTARYI"].contains(&self.name.as_str())
+    }
+
     /// The dimension of a cell, 0 where the type is no cell.
     pub fn dim(&self) -> usize {
         self.role.dim()
@@ -247,6 +252,7 @@ mod tests {
             ("B32R", Role::Beam, 3),
             ("SAX1", Role::Beam, 2),
             ("MASS", Role::Special, 1),
+            ("ROTARYI", Role::Special, 1),
             ("SPRINGA", Role::Special, 2),
             ("SPRING1", Role::Special, 1),
             ("GAPUNI", Role::Special, 2),

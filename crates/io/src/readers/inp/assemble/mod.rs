@@ -9,7 +9,7 @@ use super::card::key;
 use super::deck::{Deck, Scope};
 use super::definition::Family;
 use super::directory::{Directory, Special};
-use super::kind::Role;
+use super::kind::{Kind, Role};
 use super::lines::{Files, Spot};
 use crate::readers::MeshError;
 use crate::readers::labels::Lookup;
@@ -64,7 +64,7 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck, whole: bool) -> Result<Ass
         assembly.define_all(family)?;
     }
     assembly.note_missing();
-    assembly.name_sets();
+    assembly.name_sets(whole);
     assembly.directory.instances = assembly.instances;
     assembly.directory.element_cards = assembly.deck.element_cards;
     assembly.directory.type_names = assembly.deck.kinds.into_iter().map(|k| k.name).collect();
@@ -129,6 +129,9 @@ impl Assembly<'_> {
             let space = self.place(&scope, Some(&instance.name))?;
             spaces.push((space, scope.definitions));
             self.instances.insert(key(&instance.name), number + 1);
+            if instance.rotation.is_some() {
+                self.directory.turned.push(number + 1);
+            }
             for scope in [instance.part, instance.own] {
                 if let Some(spaces) = self.directory.scopes.get_mut(scope) {
                     spaces.push(number + 1);
@@ -260,6 +263,7 @@ impl Assembly<'_> {
                     nodes: (labels.iter())
                         .map(|node| node.saturating_add(space.shift[0]))
                         .collect(),
+                    card: scope.element_cards.get(place).copied(),
                 });
                 continue;
             };
@@ -326,8 +330,9 @@ impl Assembly<'_> {
         let kinds = || self.deck.kinds.iter().zip(self.counts.iter().copied());
         let left_out = || kinds().filter(|(kind, count)| kind.element.is_none() && *count > 0);
         let highest = left_out().map(|(kind, _)| kind.dim()).max().unwrap_or(0);
-        let springs = || kinds().any(|(kind, count)| count > 0 && kind.is_spring());
-        if highest >= dim.max(1) || dim == 0 && !springs() {
+        let is_alone = |kind: &Kind| kind.is_spring() || whole && kind.is_mass();
+        let moves = || kinds().any(|(kind, count)| count > 0 && is_alone(kind));
+        if highest >= dim.max(1) || dim == 0 && !moves() {
             let solids = left_out().filter(|(kind, _)| kind.dim() == highest);
             let words: Vec<String> = solids.map(|(k, n)| in_words(n, &k.name)).collect();
             return Err(MeshError::Unsupported {
@@ -340,7 +345,7 @@ impl Assembly<'_> {
             let words = in_words(count, &kind.name);
             let role = kind.role.word();
             self.notes.push(match (kind.element, kind.role) {
-                (None, _) if whole && kind.is_spring() => continue,
+                (None, _) if whole && (kind.is_spring() || kind.is_mass()) => continue,
                 (None, _) => format!("{words} left out: {role}"),
                 (_, Role::Truss) if whole => continue,
                 (_, Role::Solid) | (_, Role::Surface) => continue,

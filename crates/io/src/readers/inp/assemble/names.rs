@@ -25,7 +25,9 @@ impl Assembly<'_> {
     ///
     /// Where several kinds have one name, the first of element set, surface, surface of nodes and node set has it alone;
     /// the others are `name.faces`, `name.points` and `name.nodes`, unless they mean the same nodes.
-    pub(super) fn name_sets(&mut self) {
+    ///
+    /// Of a `whole` deck, sets of elements that are no cells are not empty.
+    pub(super) fn name_sets(&mut self, whole: bool) {
         let prefixes: Vec<String> = std::iter::once(String::new())
             .chain(self.deck.instances.iter().map(|i| format!("{}.", i.name)))
             .collect();
@@ -38,6 +40,11 @@ impl Assembly<'_> {
             for family in [Family::Cells, Family::Faces, Family::Points, Family::Nodes] {
                 for (compared, named) in take(space.names(family)) {
                     let name = format!("{prefix}{}", named.name);
+                    let has_special = known.special.get(&compared).is_some_and(|s| !s.is_empty());
+                    if named.set.is_empty() && !(whole && has_special && family == Family::Cells) {
+                        self.notes
+                            .push(format!("{} `{name}` is empty", family.word()));
+                    }
                     let name = self.name_set(family, name, named.set);
                     known.sets[family as usize].insert(compared, name);
                 }
@@ -69,10 +76,6 @@ impl Assembly<'_> {
         // in the order of their lines: whatever is made from them is numbered by it
         let mut seen = HashSet::new();
         set.faces.retain(|face| seen.insert(*face));
-        if set.is_empty() {
-            self.notes
-                .push(format!("{} `{name}` is empty", family.word()));
-        }
         let Some(taken) = self.mesh.sets.get(&name) else {
             self.mesh.sets.insert(name.clone(), set);
             return name;

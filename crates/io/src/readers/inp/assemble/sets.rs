@@ -148,6 +148,7 @@ impl Assembly<'_> {
         out.cells.extend(places.iter().filter_map(cell));
         self.note_special(number, &places, definition);
         for name in &definition.names {
+            self.note_special_of(number, name, definition);
             let found = match self.find(number, Family::Cells, name) {
                 Some(set) => set.cells.clone(),
                 None => match self.single(number, name, |space| &space.elements) {
@@ -174,6 +175,28 @@ impl Assembly<'_> {
             let labels = places.iter().filter_map(|place| space.special.get(place));
             let of_set = space.special_sets.entry(key(&definition.name)).or_default();
             of_set.extend(labels);
+        }
+    }
+
+    /// The same for those of a set within a set, or for a single one of an instance.
+    fn note_special_of(&mut self, number: usize, name: &str, definition: &Definition) {
+        let of = |space: usize, name: &str| self.spaces.get(space)?.special_sets.get(&key(name));
+        let within = || of_instance(&self.instances, name).filter(|_| number == 0);
+        let of_set =
+            of(number, name).or_else(|| within().and_then(|(space, rest)| of(space, rest)));
+        let single = || {
+            let (space, place) = self.single(number, name, |space| &space.elements)?;
+            self.spaces.get(space)?.special.get(&place).copied()
+        };
+        let found: Vec<u64> = match of_set {
+            Some(labels) => labels.clone(),
+            None => single().into_iter().collect(),
+        };
+        if let Some(space) = self.spaces.get_mut(number)
+            && !found.is_empty()
+        {
+            let of_set = space.special_sets.entry(key(&definition.name)).or_default();
+            of_set.extend(found);
         }
     }
 
