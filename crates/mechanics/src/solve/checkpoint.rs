@@ -28,7 +28,12 @@ impl Stepper {
         let record = &p.record;
         out.put(
             "progress.record",
-            &[record.largest, record.calm as f64, record.closed as f64],
+            &[
+                record.largest,
+                record.calm as f64,
+                record.closed as f64,
+                record.impact as f64,
+            ],
         );
         out.put("progress.origin", &p.origin);
         if !p.rate.is_empty() {
@@ -76,7 +81,7 @@ impl Stepper {
         self.newton.equations.recall(experience[0] as u8);
         let mut work = ExternalWork::default();
         work.load(system.layout.ndof(), from)?;
-        let mut record = [0.0; 3];
+        let mut record = [0.0; 4];
         if from.length("progress.record").is_ok() {
             from.get("progress.record", &mut record)?;
         }
@@ -105,6 +110,7 @@ impl Stepper {
                 largest: record[0],
                 calm: record[1] as usize,
                 closed: record[2] as usize,
+                impact: record[3] as usize,
                 is_easy: false,
             },
         };

@@ -7,7 +7,9 @@
 //! estimates what an increment of length `h` adds to the error of displacements. It is accepted where `e` is a part of the largest
 //! displacement so far; the next one is twice as long where `e`, of third order, would still be that part with a margin, as sizes that
 //! are powers of two apart share a stiffness. While rows of contact close or open an increment is no longer than the time that a wave
-//! takes through an element or two: the force of an impact acts at once, and the error of displacements sees it late.
+//! takes through an element or two: the force of an impact acts at once, and the error of displacements sees it late. Nor is it shorter
+//! than a part of that for the sake of the error: what nodes that stop at once lose does not become less by shorter increments, but the
+//! force in which they lose it grows without bound.
 
 use super::newton::Failure;
 use crate::system::{Choices, Scheme, State, System};
@@ -26,6 +28,8 @@ pub struct TimeControl {
 const FLOOR: f64 = 1e-5;
 /// Where an error `e` is below the tolerance over this, twice the length is safe: (2/0.9)³.
 const DOUBLE: f64 = 11.0;
+/// The part of the longest increment in an impact that an error does not shorten, as long as the impact lasts.
+const SHORTEST: f64 = 1.0 / 3.0;
 /// Accepted increments after a rejection, or after rows closed or opened, before longer ones: rejections would else alternate with them.
 const CALM: usize = 6;
 /// The same for lengths beyond those of an impact while rows are closed.
@@ -38,6 +42,8 @@ pub(super) struct Record {
     pub largest: f64,
     /// Increments since one was rejected, or rows closed or opened.
     pub calm: usize,
+    /// For how many more increments an impact lasts.
+    pub impact: usize,
     /// Rows closed at the accepted state.
     pub closed: usize,
     /// Whether the last error would allow an increment twice as long.
@@ -61,6 +67,7 @@ pub(super) fn look(
     let mut after = Record {
         largest: before.largest.max(system.largest_displacement(to)),
         calm: before.calm + 1,
+        impact: before.impact.saturating_sub(1),
         closed,
         is_easy: true,
     };
@@ -69,7 +76,10 @@ pub(super) fn look(
         let change = system.change_of_acceleration(scheme, [from, to]);
         let error = h * h * factor.abs() * change;
         let allowed = tolerance * after.largest.max(FLOOR * extent);
-        if error > allowed {
+        let in_impact = closed.max(before.closed) > 0 || before.impact > 0;
+        let shortest = control.impact.filter(|_| in_impact);
+        let is_short = shortest.is_some_and(|longest| h <= SHORTEST * longest);
+        if error > allowed && !is_short {
             return Err(Failure::Inaccurate { error, allowed });
         }
         after.is_easy = DOUBLE * error <= allowed;
@@ -78,7 +88,7 @@ pub(super) fn look(
         if let Some(longest) = control.impact.filter(|longest| h > *longest) {
             return Err(Failure::Impact { longest });
         }
-        after.calm = 0;
+        (after.calm, after.impact) = (0, CALM);
     }
     Ok(after)
 }

@@ -44,11 +44,8 @@ impl System {
                 *to = Vec3::ZERO;
             }
         }
-        let (layout, elimination) = (&self.layout, &self.elimination);
         for (body, rates) in self.heavy.iter().zip(&mut of.bodies) {
-            let of = |dof: Dof| elimination.increment(dof, accelerations);
-            let [along, about] = [Layout::translation, Layout::rotation]
-                .map(|dof| Vec3::from([0, 1, 2].map(|axis| of(dof(layout, body.carrier, axis)))));
+            let [along, about] = self.motion_of(body.carrier, accelerations);
             let spin = body.rotation(state) * rates.spin;
             let start = body.rates(state, [Vec3::ZERO, spin], [along, about]);
             (rates.acceleration, rates.spin_rate) = (start.acceleration, start.spin_rate);
@@ -82,6 +79,28 @@ impl System {
             }
         }
         of
+    }
+
+    /// Sets the velocities of the nodes and of rigid bodies at a state, given those of unknowns.
+    pub fn set_velocities(&self, state: &mut State, velocities: &[f64]) {
+        let velocity = self.nodal_rates(state, velocities);
+        let mut rates = state.rates.take();
+        let of = rates.get_or_insert_with(|| Rates::at_rest(velocity.len(), self.heavy.len()));
+        of.velocity = velocity;
+        for (body, rates) in self.heavy.iter().zip(&mut of.bodies) {
+            let [along, about] = self.motion_of(body.carrier, velocities);
+            let start = body.rates(state, [along, about], [Vec3::ZERO; 2]);
+            (rates.velocity, rates.spin) = (start.velocity, start.spin);
+        }
+        state.rates = rates;
+    }
+
+    /// What a rigid body has of rates of unknowns: along its axes and about them.
+    fn motion_of(&self, carrier: u32, rates: &[f64]) -> [Vec3; 2] {
+        let (layout, elimination) = (&self.layout, &self.elimination);
+        let of = |dof: Dof| elimination.increment(dof, rates);
+        [Layout::translation, Layout::rotation]
+            .map(|dof| Vec3::from([0, 1, 2].map(|axis| of(dof(layout, carrier, axis)))))
     }
 
     /// Moves rates on to the end of an increment that leads from one state to another.

@@ -1,7 +1,9 @@
 //! How a motion starts of what touches.
 
+use super::bar::{Bar, LENGTH, WAVE};
 use super::common::{model, run};
 use super::impact::{apart, sliding};
+use super::{energy, solved};
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::system::Frame;
 
@@ -101,6 +103,42 @@ fn what_is_pressed_on_facets_slips_from_the_start() {
                 let away = (own - along * slips).norm();
                 assert!(away < 0.02, "{place}: node {node}: {own:?}");
             }
+        }
+    }
+}
+
+/// A bar that touches a wall and moves towards it has the force of its wave from the start, gives no energy, and increments that adapt
+/// are no shorter for the sake of the impact than a wave takes through half an element.
+#[test]
+fn what_touches_and_meets_is_stopped_at_the_start() {
+    let bar = Bar {
+        elements: 20,
+        ..Bar::default()
+    };
+    let (force, long) = (WAVE * bar.velocity, 2.0 * LENGTH / WAVE);
+    let fixed = [0.2, 0.375, 1.0].map(|courant| {
+        let h = courant * bar.size() / WAVE;
+        format!("{{ fixed = {} }}", (1.0 / h).round())
+    });
+    for mass in ["as-is", "redistributed"] {
+        for increments in fixed.iter().chain([&"20".to_owned(), &"200".to_owned()]) {
+            let text = bar.text();
+            let step = text.find("duration").unwrap();
+            let (before, _) = text.split_at(step);
+            let text = format!(
+                "{before}duration = 1.0\nincrements = {increments}\n\
+                 dynamics = {{ rho_inf = 0.8, contact_mass = \"{mass}\" }}\nfix = [{{ on = \"bar\", u = [\"y\"] }}]\n"
+            );
+            let got = solved(&text);
+            let place = format!("{mass} {increments}");
+            let largest = energy(&got).into_iter().fold(0.0, f64::max);
+            assert!(largest < 500.0 * 1.001, "{place}: {largest}");
+            assert!(got["time"].len() < 500, "{place}: {}", got["time"].len());
+            let rows = got["time"].iter().zip(&got["c.force_x"]);
+            let middle = rows.filter(|(t, _)| (0.1 * long..0.9 * long).contains(*t));
+            let squares: Vec<f64> = middle.map(|(_, f)| (f / force - 1.0).powi(2)).collect();
+            let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+            assert!(rms < 0.15, "{place}: {rms}");
         }
     }
 }

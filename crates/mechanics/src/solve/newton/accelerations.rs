@@ -2,7 +2,10 @@
 //!
 //! ```text
 //! M a = −r + w b λ        0 ≤ λ ⟂ b·a ≥ 0   of rows that touch and do not part            (E1)
+//! M Δv = w b Λ            0 ≤ Λ ⟂ b·(v + Δv) ≥ 0   of rows that touch and meet            (E2)
 //! ```
+//!
+//! What meets is stopped first, (E2): by forces it would take a first increment, and all that it sets off.
 //!
 //! Of rows that act by multipliers, those that part are known by their velocity, `b·v > 0`; which of the others are pressed together, and
 //! which of these slip, follows from one solution after the other with the mass in the place of the stiffness. What slips already
@@ -34,7 +37,8 @@ const SLIGHT: f64 = 1e-100;
 
 impl Newton {
     /// Sets the accelerations of all nodes at an accepted state where a step with inertia begins: those that forces there give
-    /// to masses, with the multipliers of what is joined and of contacts that are closed, (E1).
+    /// to masses, with the multipliers of what is joined and of contacts that are closed, (E1). Sides that touch and meet are stopped
+    /// before, (E2).
     pub fn accelerate(&mut self, system: &mut System, state: &mut State) -> Result<(), Failure> {
         self.between = None;
         self.trial.clone_from(state);
@@ -43,21 +47,45 @@ impl Newton {
         self.prepare(system, Order::Tangent)?;
         (self.assembled, self.has_tangent) = (None, false);
         let mut rows = touching(system, state, TOUCH * self.extent)?;
-        for round in 0..ROUNDS {
-            rows.iter().for_each(|row| row.choose(&mut self.trial.u));
-            self.solve_with_mass(system, &rows)?;
-            let last = round + 1 == ROUNDS;
-            if last || !self.choose_again(system, &mut rows) {
-                break;
-            }
+        if rows.iter().any(|row| row.meets > 0.0) {
+            self.settle_with_mass(system, &mut rows, Act::Impact)?;
+            let mut rates = system.rates_of_unknowns(state);
+            let changes = rates.iter_mut().zip(&self.du);
+            changes.for_each(|(rate, change)| *rate += change);
+            system.set_velocities(state, &rates);
+            rows = touching(system, state, TOUCH * self.extent)?;
         }
+        self.settle_with_mass(system, &mut rows, Act::Forces)?;
         system.accelerate(state, &self.du);
         system.reject();
         Ok(())
     }
 
-    /// Accelerations and changes of multipliers, into `du`.
-    fn solve_with_mass(&mut self, system: &System, rows: &[Touching]) -> Result<(), Failure> {
+    /// Solves until rows act as they should.
+    fn settle_with_mass(
+        &mut self,
+        system: &System,
+        rows: &mut [Touching],
+        act: Act,
+    ) -> Result<(), Failure> {
+        for round in 0..ROUNDS {
+            rows.iter().for_each(|row| row.choose(&mut self.trial.u));
+            self.solve_with_mass(system, rows, act)?;
+            let last = round + 1 == ROUNDS;
+            if last || !self.choose_again(system, rows, act) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Accelerations, or changes of velocities, and of multipliers, into `du`.
+    fn solve_with_mass(
+        &mut self,
+        system: &System,
+        rows: &[Touching],
+        act: Act,
+    ) -> Result<(), Failure> {
         let (layout, elimination) = (&system.layout, &system.elimination);
         self.assembler.assemble_mass(
             layout,
@@ -67,7 +95,13 @@ impl Newton {
             &mut self.assembly,
         )?;
         let residual = &mut self.assembly.residual;
-        rows.iter().for_each(|row| row.hold(residual));
+        match act {
+            Act::Forces => rows.iter().for_each(|row| row.hold(residual)),
+            Act::Impact => {
+                residual.fill(0.0);
+                rows.iter().for_each(|row| row.stop(residual));
+            }
+        }
         self.du.clear();
         self.du.resize(layout.ndof(), 0.0);
         let accuracy = Accuracy::Residual(EXACT);
@@ -86,7 +120,7 @@ impl Newton {
     }
 
     /// Judges rows by a solution; whether one of them acts otherwise now.
-    fn choose_again(&self, system: &System, rows: &mut [Touching]) -> bool {
+    fn choose_again(&self, system: &System, rows: &mut [Touching], act: Act) -> bool {
         let mut pressed = 0.0_f64;
         for row in &mut *rows {
             row.traction = row.normal_and_shear(&self.trial.u, &self.du);
@@ -98,7 +132,7 @@ impl Newton {
         for row in rows {
             let acts = match row.acts {
                 How::Parts => How::Parts,
-                How::Open if row.closing(&self.du) < -NOTHING * fastest => How::Closed,
+                How::Open if row.opens(&self.du, act) < -NOTHING * fastest => How::Closed,
                 How::Open => How::Open,
                 _ if row.traction.0 < -NOTHING * pressed => How::Open,
                 How::Closed => row.sticks(system),
@@ -109,6 +143,13 @@ impl Newton {
         }
         changes
     }
+}
+
+/// What masses answer to.
+#[derive(Clone, Copy, PartialEq)]
+enum Act {
+    Forces,
+    Impact,
 }
 
 /// How a row acts.
@@ -127,6 +168,9 @@ struct Touching {
     /// The unknowns it acts on, and its force on them.
     columns: Vec<(Dof, f64)>,
     normal: Vec3,
+    measure: f64,
+    /// How fast its sides meet.
+    meets: f64,
     multiplier: Dof,
     count: usize,
     /// Its contact among the terms, and its number, where it rubs.
@@ -199,6 +243,11 @@ impl Touching {
         Some(Self {
             columns,
             normal: row.normal,
+            measure: row.measure,
+            meets: match closing < -nothing {
+                true => -closing,
+                false => 0.0,
+            },
             multiplier,
             count,
             rubs: friction.map(|_| (term, row.number)),
@@ -251,6 +300,23 @@ impl Touching {
         }
     }
 
+    /// Has the gap close no more: what its equation lacks is the velocity at which it does.
+    fn stop(&self, residual: &mut [f64]) {
+        if self.acts != How::Closed {
+            return;
+        }
+        let lacks = self.measure * self.meets;
+        for (c, at) in self.places() {
+            if let Some(to) = residual.get_mut(at) {
+                *to = if self.count == 1 {
+                    lacks
+                } else {
+                    self.normal[c] * lacks
+                };
+            }
+        }
+    }
+
     /// Pressure and shear of a solution.
     fn normal_and_shear(&self, unknowns: &[f64], changes: &[f64]) -> (f64, Vec3) {
         if matches!(self.acts, How::Parts | How::Open) {
@@ -269,9 +335,13 @@ impl Touching {
     }
 
     /// How fast the gap opens.
-    fn closing(&self, changes: &[f64]) -> f64 {
+    fn opens(&self, changes: &[f64], act: Act) -> f64 {
         let of = |dof: Dof| changes.get(dof as usize).copied().unwrap_or_default();
-        self.columns.iter().map(|(dof, b)| b * of(*dof)).sum()
+        let change: f64 = self.columns.iter().map(|(dof, b)| b * of(*dof)).sum();
+        match act {
+            Act::Forces => change,
+            Act::Impact => change - self.meets,
+        }
     }
 
     /// Whether what is pressed together sticks, or slips where its shear is beyond the limit.
