@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{model, repository};
+use common::{model, repository, run};
 use serde_json::Value;
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::audit::viscous;
@@ -146,4 +146,60 @@ fn a_jump_to_another_state_causes_alarm() {
     let judged = judged("rotation", |_| {});
     assert!(!judged.viscous.passes(), "{:?}", judged.viscous);
     assert_eq!(judged.failures(), []);
+}
+
+/// A block that is dragged until a part of it slips: points inside of facets that stick next to others that slip, and the shear of
+/// the nodes between them, are as friction says.
+#[test]
+fn a_block_that_slips_in_part_is_right() {
+    let (across, up) = (4, 2);
+    let row = across + 1;
+    let nodes: Vec<String> = (0..row * (up + 1))
+        .map(|k| {
+            let (x, y) = (k % row, k / row);
+            format!("[{}, {:?}, {:?}]", k + 1, 0.5 * x as f64, 0.5 * y as f64)
+        })
+        .collect();
+    let elements: Vec<String> = (0..across * up)
+        .map(|k| {
+            let a = k / across * row + k % across + 1;
+            let around = [a, a + 1, a + row + 1, a + row];
+            format!(
+                "{{ id = {}, type = \"quad4\", group = \"b\", nodes = {around:?} }}",
+                k + 1
+            )
+        })
+        .collect();
+    let faces: Vec<String> = (1..=across).map(|k| format!("[{k}, \"-y\"]")).collect();
+    for method in ["gauss-point", "node-to-segment"] {
+        for friction in [0.15, 0.3, 0.6] {
+            let text = format!(
+                "allow = [\"S0414\"]\n[mesh]\nnodes = [{}]\nelements = [{}]\n[model]\nspace = \"plane-strain\"\n\
+                 [material.m]\nmodel = \"linear-elastic\"\nE = 100.0\nnu = 0.3\n[[body]]\ngroup = \"b\"\nmaterial = \"m\"\n\
+                 [sets]\nfoot = {{ faces = [{}] }}\nhead = {{ plane = \"y\", at = 1.0 }}\n\
+                 [[surface]]\nname = \"floor\"\nshape = {{ plane = {{ point = [0, 0], normal = \"y\" }} }}\n\
+                 [[contact]]\nname = \"c\"\nsecondary = \"foot\"\nprimary = \"floor\"\nmethod = \"{method}\"\n\
+                 enforcement = {{ penalty = 1e4, per = \"area\" }}\nfriction = {friction:?}\n\
+                 [[step]]\nname = \"press\"\nincrements = 1\ngeometry = \"linear\"\nmove = [{{ on = \"head\", uy = -0.05, ux = 0.0 }}]\n\
+                 [[step]]\nname = \"drag\"\nincrements = 4\ngeometry = \"linear\"\nmove = [{{ on = \"head\", uy = -0.05, ux = 0.03 }}]\n",
+                nodes.join(", "),
+                elements.join(", "),
+                faces.join(", "),
+            );
+            let done = run(&mut model("part", &text, &[]));
+            assert!(
+                done.error.is_none(),
+                "{method} {friction}: {:?}",
+                done.error
+            );
+            for frame in &done.frames {
+                let found: Vec<Check> = frame
+                    .audits
+                    .iter()
+                    .flat_map(|audit| audit.failures().map(|(check, _)| check))
+                    .collect();
+                assert!(found.is_empty(), "{method} {friction}: {found:?}");
+            }
+        }
+    }
 }

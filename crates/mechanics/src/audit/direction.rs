@@ -32,7 +32,9 @@ pub fn check(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules, seen: 
         }
         let bend = seen.bend(&met).angle + met.curvature * node.size;
         let allowance = (OFF + node.turn.max(bend)).min(FRAC_PI_4).tan();
-        let slips = of.status.get(k) == Some(&Status::Slip);
+        // the mean over points inside of facets is below the limit where some stick, or slip another way
+        let is_mean = of.faces.is_some();
+        let slips = !is_mean && of.status.get(k) == Some(&Status::Slip);
         let limit = |pressure| rules.limit(k, pressure);
         let judge = |normal| Parts::new(support.traction(k), normal, &limit, (slips, allowance));
         let mut parts = judge(met.normal);
