@@ -247,6 +247,7 @@ impl Term for RigidInertia {
         Properties {
             lifetime,
             to_end: true,
+            elements: u64::from(self.step.is_some()),
             ..Properties::new(symmetry, Part::Interface).with_role(Role::Inertia)
         }
     }

@@ -705,7 +705,7 @@ impl Assembler {
 
 /// Identifies the elements that take part. Equal numbers mean equal elements.
 fn elements_of(terms: &[Box<dyn Term>]) -> u64 {
-    bulk(terms).fold(0, |all, term| {
+    terms.iter().fold(0, |all, term| {
         all.wrapping_mul(MIX)
             .wrapping_add(term.properties().elements)
     })

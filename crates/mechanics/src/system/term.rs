@@ -17,8 +17,8 @@ pub struct Properties {
     pub to_end: bool,
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     pub has_saddle: bool,
-    /// Identifies the elements that take part. Equal numbers mean equal elements, and with them an equal pattern of the
-    /// bulk.
+    /// Identifies the elements, or bodies, that take part. Equal numbers mean equal ones, and with them an equal pattern, but for what
+    /// contact couples.
     pub elements: u64,
 }
 

@@ -1,5 +1,6 @@
 //! Rigid bodies with a mass: free, on a pivot, in contact.
 
+use super::common::{model, run};
 use super::{Table, refusal, solve, solved, stopped_after};
 use std::fmt::Write;
 
@@ -499,4 +500,23 @@ fn what_rigid_bodies_need_for_a_motion_is_said() {
     );
     let pull = refusal(&(pull + "load = [{ on = \"block\", gravity = [0, -9.81] }]\n"));
     assert!(pull.contains("\"block\" has no mass"), "{pull}");
+}
+
+/// Bodies that begin to move take part from then on: in a stepper without a run around it, and after a static step.
+#[test]
+fn bodies_move_from_the_first_dynamic_step_on() {
+    let free = pendulum(0.7, 4.0, 20).replace("fix = [{ on = \"pivot\", u = \"all\" }]", "");
+    let waits = free.replacen("[[step]]", "[[step]]\nname = \"wait\"\n[[step]]", 1);
+    for text in [free, waits] {
+        let done = run(&mut model("falls", &text, &[]));
+        assert!(done.error.is_none(), "{:?}", done.error);
+        for got in [
+            done.frames.last().unwrap().rigid[0].displacement.y,
+            *solved(&text)["pivot.displacement_y"].last().unwrap(),
+        ] {
+            let t = 4.0 * ((0.3 + 2.0 * 0.7 * 0.7) / (2.0 * 9.81 * 0.7_f64)).sqrt();
+            let way = -0.5 * 9.81 * t * t;
+            assert!((got / way - 1.0).abs() < 1e-9, "{got} for {way}");
+        }
+    }
 }
