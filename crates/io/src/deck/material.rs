@@ -2,7 +2,9 @@
 
 use super::forms::needs_data;
 use super::translation::Translation;
-use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity, Unstrained};
+use crate::case::{
+    Constant, Expansion, Hardening, Material, MaterialDamping, Name, Plasticity, Unstrained,
+};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Statement, compared};
 
@@ -365,7 +367,7 @@ fn case_of(of: Properties) -> Option<Material> {
             .collect(),
         own: None,
         density: of.density,
-        damping: 0.0,
+        damping: MaterialDamping::default(),
         expansion: of.expansion,
         plasticity: of.plasticity,
         place: of.place,

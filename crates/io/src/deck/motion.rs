@@ -98,7 +98,7 @@ impl Translation<'_> {
                     let damped = self.case.materials.iter_mut();
                     let damped =
                         damped.filter(|one| own.is_none_or(|own| compared(&one.name) == *own));
-                    damped.for_each(|one| one.damping = mass);
+                    damped.for_each(|one| one.damping.mass = mass);
                 }
                 _ => {}
             }

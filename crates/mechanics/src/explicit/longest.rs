@@ -5,7 +5,14 @@
 //! ```
 //!
 //! with the stiffness `K_e` of elements, each with a part of the mass of its nodes that goes by its part of their stiffness, and
-//! the rows of contacts and springs, node by node. Nothing is assembled. Both parts are bounds: the Rayleigh quotient of a sum is at
+//! the rows of contacts and springs, node by node. Elements whose stiffness damps by the time `b` count as those without damping that
+//! ask for the same increment,
+//!
+//! ```text
+//! 4 = h² λ + 2 h b λ        by λ (√(1 + ξ²) + ξ)², ξ = ½ b √λ                                       (E2)
+//! ```
+//!
+//! Nothing is assembled. Both parts are bounds: the Rayleigh quotient of a sum is at
 //! most the sum of the largest, whatever parts the mass is taken in, and unknowns that follow others, or are held, only lower it.
 //! Elements whose material has yielded are as stiff as at the start when they are unloaded: of both, and what they are shortened by
 //! counts. Rows that are open count as closed as soon as they can close before the next look.
@@ -103,6 +110,18 @@ struct Scratch {
     vectors: [Vec<f64>; 3],
 }
 
+/// The eigenvalue without damping that asks for the same increment as this one with it (E2).
+fn damped(eigenvalue: f64, retardation: f64) -> f64 {
+    let part = 0.5 * retardation * eigenvalue.sqrt();
+    let factor = part.hypot(1.0) + part;
+    eigenvalue * factor * factor
+}
+
+/// The inverse of [`damped`].
+fn undamped(eigenvalue: f64, retardation: f64) -> f64 {
+    eigenvalue / (1.0 + retardation * eigenvalue.sqrt())
+}
+
 impl Bound<'_> {
     /// The mass that each node lacks so that no element has a frequency above this, squared: of an element, masses in the
     /// proportion of `Σ_j |K_ij|` are those that its largest eigenvalue asks for.
@@ -122,6 +141,7 @@ impl Bound<'_> {
             } = &mut scratch;
             elements.clear();
             term.evaluate(chunk, state, Order::Tangent, work, elements)?;
+            let most = undamped(most, term.properties().retardation);
             elements.each(|dofs, stiffness| {
                 let of_element = (dofs, stiffness);
                 if self.eigenvalue(of_element, [&masses, &diagonal], vectors) <= most {
@@ -231,7 +251,7 @@ impl Bound<'_> {
         let diagonal = self.diagonal(&evaluate)?;
         Ok(Initial(self.each_chunk(
             &evaluate,
-            |_, elements, vectors| {
+            |_, _, elements, vectors| {
                 let mut all = Vec::new();
                 elements.each(|dofs, stiffness| {
                     all.push(self.eigenvalue((dofs, stiffness), [&masses, &diagonal], vectors));
@@ -246,7 +266,8 @@ impl Bound<'_> {
         let masses = self.masses();
         let diagonal = self.diagonal(&tangent(state))?;
         let ndim = self.system.layout.ndim();
-        let all = self.each_chunk(&tangent(state), |number, elements, vectors| {
+        let all = self.each_chunk(&tangent(state), |number, term, elements, vectors| {
+            let retardation = term.properties().retardation;
             let mut unloaded = initial.0.get(number).into_iter().flatten();
             let mut nodes: Vec<NodeId> = Vec::new();
             let mut largest = 0.0_f64;
@@ -256,7 +277,8 @@ impl Bound<'_> {
                 let node = |dof: &Dof| Some(self.system.layout.name(*dof)?.displacement()?.0);
                 nodes.clear();
                 nodes.extend(dofs.iter().step_by(ndim.max(1)).filter_map(node));
-                largest = largest.max(own).max(before * self.shortened(&nodes, state));
+                let own = own.max(before * self.shortened(&nodes, state));
+                largest = largest.max(damped(own, retardation));
             });
             largest
         })?;
@@ -267,7 +289,7 @@ impl Bound<'_> {
     fn each_chunk<T: Send>(
         &self,
         evaluate: &Evaluate<'_>,
-        make: impl Fn(usize, &Elements, &mut [Vec<f64>; 3]) -> T + Sync,
+        make: impl Fn(usize, &dyn Term, &Elements, &mut [Vec<f64>; 3]) -> T + Sync,
     ) -> Result<Vec<T>, TermError> {
         let chunks: Vec<(&dyn Term, usize)> = self.chunks(Part::Bulk).collect();
         let of_chunk =
@@ -279,7 +301,7 @@ impl Bound<'_> {
                 } = scratch;
                 elements.clear();
                 evaluate(term, chunk, work, elements)?;
-                Ok(make(number, elements, vectors))
+                Ok(make(number, term, elements, vectors))
             };
         let all = chunks.into_par_iter().enumerate();
         all.map_init(Scratch::default, of_chunk).collect()
@@ -314,11 +336,12 @@ impl Bound<'_> {
         let chunks: Vec<(&dyn Term, usize)> = self.chunks(Part::Bulk).collect();
         let of_chunk = |(number, (term, chunk)): (usize, (&dyn Term, usize))| {
             let mut all = initial.0.get(number).into_iter().flatten();
-            let mut largest = 0.0_f64;
+            let (mut largest, retardation) = (0.0_f64, term.properties().retardation);
             if let Some(elementwise) = term.capabilities().elementwise {
                 elementwise.elements(chunk, &mut |nodes| {
                     let own = all.next().copied().unwrap_or_default();
-                    largest = largest.max(own * self.shortened(nodes, state));
+                    let own = own * self.shortened(nodes, state);
+                    largest = largest.max(damped(own, retardation));
                 });
             }
             largest

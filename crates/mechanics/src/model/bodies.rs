@@ -223,6 +223,7 @@ impl Context<'_> {
                 BodyKind::Solid {
                     material,
                     later,
+                    mass,
                     profile,
                     integration,
                     locking,
@@ -249,6 +250,7 @@ impl Context<'_> {
                         initial: &initial,
                         axes: axes.map(|axes| *axes),
                     })?;
+                    solid.set_retardation(mass.retardation);
                     solid.set_activity(self.activity.clone());
                     for (step, material) in later {
                         solid.change(step, material)?;
@@ -271,6 +273,7 @@ impl Context<'_> {
                     material,
                     area,
                     small,
+                    mass,
                     ..
                 } => {
                     let mut truss = Truss::new(TrussParts {
@@ -285,6 +288,7 @@ impl Context<'_> {
                         small,
                         temperature,
                     })?;
+                    truss.set_retardation(mass.retardation);
                     truss.set_activity(self.activity.clone());
                     for &kinematics in conserving {
                         truss.conserves_energy(kinematics)?;

@@ -20,6 +20,8 @@ use super::kernel::Initial;
 use super::plan::{Forces, Plan, gather, inverted};
 use super::scratch::{Scratch, Wanted};
 use super::term::Solid;
+use super::truss::{Bar, Truss};
+use crate::material::Order;
 use crate::system::{Activity, Archive, ArchiveError, CellChange, Idealisation, State, TermError};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Sym3;
@@ -213,5 +215,89 @@ impl Solid {
         }
         self.set_active();
         Ok(())
+    }
+}
+
+impl Truss {
+    /// Bars take part as this says.
+    pub fn set_activity(&mut self, activity: Arc<Activity>) {
+        if self.bars.iter().any(|bar| activity.names(bar.id)) {
+            self.plan = Some(Plan::new(activity));
+            self.set_active();
+        }
+    }
+
+    pub(super) fn set_active(&mut self) {
+        if let Some(plan) = &self.plan {
+            let (bars, step) = (&self.bars, plan.step());
+            let is_active = |k: usize| {
+                bars.get(k)
+                    .is_none_or(|bar| plan.activity.is_active(bar.id, step))
+            };
+            self.part.set_active(bars.len(), is_active);
+        }
+    }
+
+    /// Makes the changes of a step that begins.
+    pub(super) fn change_bars(&mut self, step: usize, from: &State) -> Result<(), TermError> {
+        let Some(plan) = &mut self.plan else {
+            return Ok(());
+        };
+        if !plan.begins(step) {
+            return Ok(());
+        }
+        let activity = plan.activity.clone();
+        let mut forces = Forces::new();
+        let ndim = self.layout.ndim();
+        for number in 0..self.bars.len() {
+            let id = self.bars[number].id;
+            match activity.change(id, step) {
+                Some(CellChange::Removed { ramp: true }) if step > 0 => {
+                    let order = Order::Stress;
+                    let local = self.local(number, At::Trial(from), order, &mut Vec::new())?;
+                    gather(&mut forces, &self.bars[number].nodes, &local.force, ndim);
+                }
+                Some(CellChange::Added { strain_free: true }) => {
+                    let mut u = vec![0.0; self.width()];
+                    let bar = &self.bars[number];
+                    for (k, &node) in bar.nodes.iter().enumerate() {
+                        for axis in 0..ndim {
+                            u[k * ndim + axis] = from.u[self.layout.node(node, axis) as usize];
+                        }
+                    }
+                    self.part.add(number, self.bars.len(), step, &u);
+                    let n = bar.element.full_rule().npoint() * self.undeformed.len();
+                    if n > 0 {
+                        let history = &mut self.history[bar.history..bar.history + n];
+                        let points = history.chunks_exact_mut(self.undeformed.len());
+                        points.for_each(|to| to.copy_from_slice(&self.undeformed));
+                    }
+                }
+                _ => {}
+            }
+        }
+        if let Some(plan) = &mut self.plan {
+            plan.fade(&self.layout, &forces);
+        }
+        Ok(())
+    }
+
+    /// Refuses bars that are added where they have no length.
+    pub(super) fn judge_added(&self, step: usize) -> Result<(), TermError> {
+        let Some(plan) = &self.plan else {
+            return Ok(());
+        };
+        let has_length = |number: usize, bar: &Bar| {
+            let npoint = bar.element.full_rule().npoint();
+            (0..npoint).all(|p| self.tangent(bar, Some(number), p).is_some())
+        };
+        let bars = self.bars.iter().enumerate();
+        let lost = bars
+            .filter(|(number, bar)| plan.activity.adds(bar.id, step) && !has_length(*number, bar));
+        let labels: Vec<u64> = lost.map(|(_, bar)| bar.label).collect();
+        match labels.is_empty() {
+            true => Ok(()),
+            false => Err(inverted(&self.name, &labels)),
+        }
     }
 }

@@ -44,7 +44,8 @@ impl InitialStiffness for Solid {
             let is_plain = block.nhistory == 0 && block.part.is_natural();
             is_plain && displacements.all(|u| u == 0.0)
         };
-        self.temperature.is_none() && self.blocks.iter().all(is_undeformed)
+        let is_bare = self.temperature.is_none() && self.damping.stiff().is_none();
+        is_bare && self.blocks.iter().all(is_undeformed)
     }
 }
 
@@ -61,6 +62,7 @@ impl Elementwise for Solid {
 impl Stored for Solid {
     /// Evaluates once more, from the last accepted history: trial history is kept nowhere, so that evaluation is pure.
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.damping.spent += self.dissipation(state)?;
         let next = |block: &Cells| -> Result<Vec<f64>, TermError> {
             let n = block.nhistory;
             let mut next = vec![0.0; block.history.len()];
@@ -98,6 +100,7 @@ impl Stored for Solid {
                 out.put(self.archived(number), &block.history);
             }
         }
+        self.damping.save(&self.name, out);
         self.save_plan(out);
     }
 
@@ -109,6 +112,7 @@ impl Stored for Solid {
                 from.get(&name, &mut block.history)?;
             }
         }
+        self.damping.load(&self.name, from)?;
         self.load_plan(from)
     }
 }

@@ -2,9 +2,11 @@
 
 use super::axes::{Frames, MaterialAxes, on_axis};
 use super::choice::Situation;
+use super::damping::Since;
 use super::error::SolidError;
 use super::kernel::{
     BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel, secant_kernel,
+    viscous_kernel,
 };
 use super::plan::Part;
 use super::{AtNodes, Locking, report};
@@ -42,6 +44,8 @@ pub(super) struct Treatment {
     pub batch: Option<BatchKernel>,
     /// Where energy is conserved.
     pub secant: Option<Kernel>,
+    /// Of stresses over the rate of strain at finite strain.
+    pub viscous: Option<Kernel>,
 }
 
 /// Cells of one element.
@@ -74,6 +78,8 @@ pub(super) struct Cells {
     pub frames: Frames,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
     pub rigidity: Vec<f64>,
+    // of every unknown of every cell where the increment began, where velocities damp
+    pub since: Vec<Since>,
 }
 
 impl Cells {
@@ -94,6 +100,7 @@ impl Cells {
                 kernel: kernel(element, space, remedy)?,
                 batch: batch_kernel(element, space, remedy),
                 secant: secant_kernel(element, space, remedy),
+                viscous: viscous_kernel(element, space, remedy),
             })
         };
         let (small, finite) = (
@@ -119,6 +126,7 @@ impl Cells {
             labels: Vec::new(),
             ids: Vec::new(),
             rigidity: Vec::new(),
+            since: Vec::new(),
             nhistory: rule.npoint() * nhistory + modes,
             undeformed: Vec::new(),
             history: Vec::new(),

@@ -50,7 +50,7 @@ impl Solid {
 
     /// Whether the stiffness there is symmetric.
     pub(super) fn is_symmetric(&self, at: At<'_>) -> bool {
-        self.material().is_symmetric() && self.secant_way(at).is_none()
+        self.material().is_symmetric() && self.secant_way(at).is_none() && !self.skews(at)
     }
 }
 

@@ -56,6 +56,11 @@
 //! the law is not linear; elements with a remedy against locking have no such form there, nor have bars. Laws with a history are
 //! evaluated at the mean place.
 //!
+//! # Damping
+//!
+//! In motions in time the stiffness of a body may damp, [`Solid::set_retardation`]: (E29) to (E31) in `damping`, and at finite strain (E24)
+//! to (E28) in `kernel::viscous`.
+//!
 //! # At the start
 //!
 //! A point may have a stress `S_0` and a strain `E_0` that leaves no stress, [`AtStart`]: `S = S(E − E_0) + S_0`, with
@@ -97,6 +102,7 @@ mod capabilities;
 mod cells;
 mod choice;
 mod conserving;
+mod damping;
 mod error;
 mod kernel;
 mod plan;
@@ -106,6 +112,7 @@ mod term;
 #[cfg(test)]
 mod tests;
 mod truss;
+mod viscous;
 
 pub use axes::{Cylindrical, MaterialAxes};
 pub use cells::AtStart;

@@ -12,6 +12,7 @@ pub(super) struct Scratch {
     pub x: Vec<Vec3>,
     pub u: Vec<f64>,
     pub way: Vec<f64>,
+    pub rate: Vec<f64>,
     pub profile: Vec<f64>,
     pub temperature: Vec<f64>,
     pub temperature_at_start: Vec<f64>,
@@ -24,6 +25,15 @@ pub(super) struct Scratch {
     /// Where the stiffness is symmetric: see [`Sink::add_symmetric`].
     pub blocks: Vec<f64>,
     pub lanes: InLanes,
+    pub viscous: OfRates,
+}
+
+/// What follows from rates of strain.
+#[derive(Default)]
+pub(super) struct OfRates {
+    pub force: Vec<f64>,
+    pub stiffness: Vec<f64>,
+    pub new: Vec<f64>,
 }
 
 /// The same of several cells, lane by lane.

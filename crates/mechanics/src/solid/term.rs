@@ -2,6 +2,7 @@ use super::at::At;
 use super::axes::MaterialAxes;
 use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
+use super::damping::Damping;
 use super::error::SolidError;
 use super::kernel::{Batch, BatchKernel, Element, Failure, Output, Results, Sample, width};
 use super::plan::{Plan, is_linear};
@@ -41,6 +42,7 @@ pub struct Solid {
     pub(super) plan: Option<Plan>,
     // whether the strain at which cells were added is taken off in the present step
     pub(super) subtracts: bool,
+    pub(super) damping: Damping,
 }
 
 /// What a body is made from.
@@ -189,6 +191,7 @@ impl Solid {
             chunks,
             plan: None,
             subtracts: false,
+            damping: Damping::default(),
         })
     }
 
@@ -281,7 +284,8 @@ impl Solid {
         scratch.size(block, self.layout.ndim(), wanted);
         let is_symmetric = self.is_symmetric(at);
         let batch = block.treatment(self.kinematics).batch;
-        let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric);
+        let flow = self.flow(at, wanted);
+        let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric && flow.is_none());
         let width = if batch.is_some() { width() } else { 1 };
         for begin in (first..last).step_by(width) {
             let cells = begin..last.min(begin + width);
@@ -296,6 +300,9 @@ impl Solid {
                     self.pick(block, cell, at, (lane, width), scratch)
                 } else {
                     let energy = self.cell(block, cell, at, wanted, scratch)?;
+                    if let Some(flow) = flow {
+                        self.damp(block, cell, (at, flow), wanted, scratch)?;
+                    }
                     if is_symmetric {
                         scratch.pack(block.nnode, self.layout.ndim());
                     }
@@ -481,6 +488,8 @@ impl Solid {
             x: &[],
             u: &[],
             way: &[],
+            rate: &[],
+            slope: 0.0,
             material: self.material(),
             kinematics: self.kinematics,
             space: self.space,
@@ -497,15 +506,8 @@ impl Solid {
         }
     }
 
-    /// Runs the kernel over one cell: results are in the scratch, the energy comes back.
-    pub(super) fn cell(
-        &self,
-        block: &Cells,
-        cell: usize,
-        at: At<'_>,
-        wanted: Wanted,
-        scratch: &mut Scratch,
-    ) -> Result<f64, TermError> {
+    /// Where a cell is, where its nodes go, and all else that they have.
+    pub(super) fn place(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
         self.locate(block, cell, at, scratch);
         scratch.x.clear();
         let nodes = block.nodes_of(cell).iter();
@@ -529,6 +531,18 @@ impl Solid {
         scratch.temperature_at_start.clear();
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
         self.heat(block, cell, at, now, at_start);
+    }
+
+    /// Runs the kernel over one cell: results are in the scratch, the energy comes back.
+    pub(super) fn cell(
+        &self,
+        block: &Cells,
+        cell: usize,
+        at: At<'_>,
+        wanted: Wanted,
+        scratch: &mut Scratch,
+    ) -> Result<f64, TermError> {
+        self.place(block, cell, at, scratch);
         scratch.way.clear();
         let way = self.secant_way(at);
         if let Some(way) = way {
@@ -601,7 +615,8 @@ impl Term for Solid {
         let later = self.later.iter().map(|(_, material)| material);
         let mut all = std::iter::once(&self.material).chain(later);
         let is_secant = self.takes_secants();
-        let symmetry = if !is_secant && all.all(|material| material.is_symmetric()) {
+        let is_viscous = self.damping.stiff().is_some() && self.kinematics == Kinematics::Finite;
+        let symmetry = if !is_secant && !is_viscous && all.all(|material| material.is_symmetric()) {
             Symmetry::Definite
         } else {
             Symmetry::Unsymmetric
@@ -613,7 +628,8 @@ impl Term for Solid {
             (Kinematics::Finite, _) => Lifetime::State,
         };
         Properties {
-            lifetime,
+            lifetime: self.damping.lifetime(lifetime),
+            retardation: self.damping.retardation,
             elements: self.elements_id(),
             to_end: is_secant,
             ..Properties::new(symmetry, Part::Bulk)
@@ -645,6 +661,7 @@ impl Term for Solid {
         }
         self.step = phase.step;
         self.set_kinematics(kinematics);
+        self.begin_damping(phase, from);
         if self.step.conserves() {
             self.conserves_energy(kinematics)
                 .map_err(|e| TermError::Refused {
@@ -679,11 +696,13 @@ impl Term for Solid {
         }
         let scratch = work.of::<Scratch>();
         let at = At::Trial(trial);
+        let slope = self.damping.flow().map_or(0.0, |flow| flow.slope);
+        let stiffer = 1.0 + self.damping.retardation * slope;
         self.each(chunk, at, wanted, scratch, |block, cell, _, s| {
             self.hand(at, s, out);
             // strains are sums of as many products as there are nodes
             let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
-            let sum = block.rigidity[cell] * block.nnode as f64;
+            let sum = block.rigidity[cell] * block.nnode as f64 * stiffer;
             out.uncertain(&s.dofs, f64::EPSILON * sum * far);
         })
     }
@@ -739,6 +758,9 @@ impl Term for Solid {
                 ids.map(|(cell, &id)| (id, block.part.is_active(cell)))
             });
             cells.for_each(|(id, is_active)| frame.set_active(id, is_active));
+        }
+        if state.rates.is_some() && self.damping.retardation > 0.0 {
+            frame.energies.get_or_insert_default().damping += self.damping.spent;
         }
         if let Some(field) = &self.temperature {
             frame.temperature.resize(frame.stress.len(), 0.0);

@@ -11,14 +11,14 @@
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
 use super::at::At;
-use super::plan::{Forces, Part, Plan, gather, inverted, is_linear};
+use super::damping::{Damping, Since};
+use super::plan::{Part, Plan, is_linear};
 use super::{SolidError, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
-    Activity, Archive, ArchiveError, Capabilities, CellChange, Dof, Frame, Idealisation,
-    InitialStiffness, Layout, NodalField, Order, Part as Share, PatternSink, Phase, PointSample,
-    Properties, Sampled, Samples, Sink, State, StepContext, Stored, Symmetry, Term, TermError,
-    Work,
+    Archive, ArchiveError, Capabilities, Dof, Frame, Idealisation, InitialStiffness, Layout,
+    NodalField, Order, Part as Share, PatternSink, Phase, PointSample, Properties, Sampled,
+    Samples, Sink, State, StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -28,30 +28,31 @@ use std::sync::Arc;
 /// Bars evaluated together.
 const CHUNK: usize = 64;
 /// The most unknowns of a bar: three nodes in space.
-const MOST: usize = 9;
+pub(super) const MOST: usize = 9;
 
 /// Bars of one material and cross-section.
 pub struct Truss {
     pub(super) name: String,
-    layout: Layout,
+    pub(super) layout: Layout,
     reference: Arc<[Vec3]>,
-    material: Box<dyn Material>,
-    area: f64,
+    pub(super) material: Box<dyn Material>,
+    pub(super) area: f64,
     pub(super) small: bool,
-    kinematics: Kinematics,
+    pub(super) kinematics: Kinematics,
     temperature: Option<Arc<NodalField>>,
     step: StepContext,
-    bars: Vec<Bar>,
+    pub(super) bars: Vec<Bar>,
     // history of a point of the undeformed material
-    undeformed: Vec<f64>,
+    pub(super) undeformed: Vec<f64>,
     // accepted history of all points, bar by bar
-    history: Vec<f64>,
+    pub(super) history: Vec<f64>,
     // whether the law is linear in the strain
     linear: bool,
     // which bars take part
-    part: Part,
+    pub(super) part: Part,
     // none where all always do
-    plan: Option<Plan>,
+    pub(super) plan: Option<Plan>,
+    pub(super) damping: Damping,
 }
 
 /// What bars are made from.
@@ -78,25 +79,27 @@ pub struct TrussParts<'a> {
     pub temperature: Option<Arc<NodalField>>,
 }
 
-struct Bar {
-    element: Element,
-    nodes: Vec<NodeId>,
-    label: u64,
-    id: CellId,
+pub(super) struct Bar {
+    pub element: Element,
+    pub nodes: Vec<NodeId>,
+    pub label: u64,
+    pub id: CellId,
     // where its history begins
-    history: usize,
+    pub history: usize,
+    // of every unknown where the increment began, where velocities damp
+    pub since: Vec<Since>,
 }
 
 /// A point of a bar.
-struct Point {
+pub(super) struct Point {
     /// Derivatives of the shape functions along the bar.
-    slope: [f64; 3],
+    pub slope: [f64; 3],
     /// Length that belongs to it.
-    weight: f64,
+    pub weight: f64,
     /// t.
     unit: Vec3,
     /// t + h; t at small strain.
-    along: Vec3,
+    pub along: Vec3,
     strain: f64,
 }
 
@@ -107,10 +110,20 @@ struct Scratch {
 }
 
 /// Forces and stiffness of a bar.
-struct Local {
-    force: [f64; MOST],
-    stiffness: [f64; MOST * MOST],
+pub(super) struct Local {
+    pub force: [f64; MOST],
+    pub stiffness: [f64; MOST * MOST],
     energy: f64,
+}
+
+impl Default for Local {
+    fn default() -> Self {
+        Self {
+            force: [0.0; MOST],
+            stiffness: [0.0; MOST * MOST],
+            energy: 0.0,
+        }
+    }
 }
 
 impl Truss {
@@ -153,6 +166,7 @@ impl Truss {
             linear,
             part: Part::default(),
             plan: None,
+            damping: Damping::default(),
         };
         truss.material.start(&mut truss.undeformed);
         for &id in cells {
@@ -172,6 +186,7 @@ impl Truss {
                 label,
                 id,
                 history: truss.history.len(),
+                since: Vec::new(),
             };
             let npoint = element.full_rule().npoint();
             let long = (0..npoint).all(|p| truss.tangent(&bar, None, p).is_some());
@@ -193,7 +208,7 @@ impl Truss {
 
     /// Derivatives of the shape functions by the reference coordinate at a point, and `dX/dξ` as unit vector and length;
     /// `None` where there is no length.
-    fn tangent(
+    pub(super) fn tangent(
         &self,
         bar: &Bar,
         number: Option<usize>,
@@ -229,17 +244,17 @@ impl Truss {
     }
 
     /// u_0 of a bar; nothing where it is zero.
-    fn origin(&self, number: usize) -> &[f64] {
+    pub(super) fn origin(&self, number: usize) -> &[f64] {
         self.part.origin(number, self.width())
     }
 
     /// The most unknowns of a bar here: those of shorter ones are followed by zeros.
-    fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         3 * self.layout.ndim()
     }
 
     /// (E14), and the strain that is taken off.
-    fn point(&self, number: usize, point: usize, at: At<'_>) -> Option<(Point, f64)> {
+    pub(super) fn point(&self, number: usize, point: usize, at: At<'_>) -> Option<(Point, f64)> {
         let bar = self.bars.get(number)?;
         let (dn, unit, length) = self.tangent(bar, Some(number), point)?;
         let slope = dn.map(|d| d / length);
@@ -272,7 +287,7 @@ impl Truss {
     }
 
     /// The temperatures at a point: that of the present, and that at the start.
-    fn temperature(&self, number: usize, point: usize, at: At<'_>) -> [f64; 2] {
+    pub(super) fn temperature(&self, number: usize, point: usize, at: At<'_>) -> [f64; 2] {
         let (Some(field), Some(bar)) = (&self.temperature, self.bars.get(number)) else {
             return [0.0; 2];
         };
@@ -340,7 +355,7 @@ impl Truss {
     }
 
     /// (E15), (E16).
-    fn local(
+    pub(super) fn local(
         &self,
         number: usize,
         at: At<'_>,
@@ -351,11 +366,7 @@ impl Truss {
         let ndim = self.layout.ndim();
         let n = bar.nodes.len() * ndim;
         let finite = self.kinematics == Kinematics::Finite;
-        let mut out = Local {
-            force: [0.0; MOST],
-            stiffness: [0.0; MOST * MOST],
-            energy: 0.0,
-        };
+        let mut out = Local::default();
         self.points(number, at, order, new, |point, response, _| {
             let volume = point.weight * self.area;
             let stress = response.stress.xx();
@@ -401,7 +412,10 @@ impl Truss {
         };
         for number in self.chunk(chunk) {
             let (bar, layout) = (&self.bars[number], &self.layout);
-            let local = self.local(number, at, order, &mut scratch.new)?;
+            let mut local = self.local(number, at, order, &mut scratch.new)?;
+            if let Some(flow) = self.damping.at(at, stiff == 1) {
+                self.damp(number, (at, flow), order, &mut scratch.new, &mut local)?;
+            }
             let of_node = |&node: &NodeId| (0..layout.ndim()).map(move |c| layout.node(node, c));
             scratch.dofs.clear();
             scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
@@ -457,7 +471,7 @@ impl Truss {
     }
 
     /// The bars of a chunk that take part.
-    fn chunk(&self, chunk: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn chunk(&self, chunk: usize) -> impl Iterator<Item = usize> + '_ {
         let end = ((chunk + 1) * CHUNK).min(self.bars.len());
         (chunk * CHUNK..end).filter(|&number| self.part.is_active(number))
     }
@@ -465,88 +479,6 @@ impl Truss {
     /// Chunks of bars, without that of forces that fall to zero.
     fn nchunk_of_bars(&self) -> usize {
         self.bars.len().div_ceil(CHUNK)
-    }
-
-    /// Bars take part as this says.
-    pub fn set_activity(&mut self, activity: Arc<Activity>) {
-        if self.bars.iter().any(|bar| activity.names(bar.id)) {
-            self.plan = Some(Plan::new(activity));
-            self.set_active();
-        }
-    }
-
-    fn set_active(&mut self) {
-        if let Some(plan) = &self.plan {
-            let (bars, step) = (&self.bars, plan.step());
-            let is_active = |k: usize| {
-                bars.get(k)
-                    .is_none_or(|bar| plan.activity.is_active(bar.id, step))
-            };
-            self.part.set_active(bars.len(), is_active);
-        }
-    }
-
-    /// Makes the changes of a step that begins.
-    fn change_bars(&mut self, step: usize, from: &State) -> Result<(), TermError> {
-        let Some(plan) = &mut self.plan else {
-            return Ok(());
-        };
-        if !plan.begins(step) {
-            return Ok(());
-        }
-        let activity = plan.activity.clone();
-        let mut forces = Forces::new();
-        let ndim = self.layout.ndim();
-        for number in 0..self.bars.len() {
-            let id = self.bars[number].id;
-            match activity.change(id, step) {
-                Some(CellChange::Removed { ramp: true }) if step > 0 => {
-                    let order = MaterialOrder::Stress;
-                    let local = self.local(number, At::Trial(from), order, &mut Vec::new())?;
-                    gather(&mut forces, &self.bars[number].nodes, &local.force, ndim);
-                }
-                Some(CellChange::Added { strain_free: true }) => {
-                    let mut u = vec![0.0; self.width()];
-                    let bar = &self.bars[number];
-                    for (k, &node) in bar.nodes.iter().enumerate() {
-                        for axis in 0..ndim {
-                            u[k * ndim + axis] = from.u[self.layout.node(node, axis) as usize];
-                        }
-                    }
-                    self.part.add(number, self.bars.len(), step, &u);
-                    let n = bar.element.full_rule().npoint() * self.undeformed.len();
-                    if n > 0 {
-                        let history = &mut self.history[bar.history..bar.history + n];
-                        let points = history.chunks_exact_mut(self.undeformed.len());
-                        points.for_each(|to| to.copy_from_slice(&self.undeformed));
-                    }
-                }
-                _ => {}
-            }
-        }
-        if let Some(plan) = &mut self.plan {
-            plan.fade(&self.layout, &forces);
-        }
-        Ok(())
-    }
-
-    /// Refuses bars that are added where they have no length.
-    fn judge_added(&self, step: usize) -> Result<(), TermError> {
-        let Some(plan) = &self.plan else {
-            return Ok(());
-        };
-        let has_length = |number: usize, bar: &Bar| {
-            let npoint = bar.element.full_rule().npoint();
-            (0..npoint).all(|p| self.tangent(bar, Some(number), p).is_some())
-        };
-        let bars = self.bars.iter().enumerate();
-        let lost = bars
-            .filter(|(number, bar)| plan.activity.adds(bar.id, step) && !has_length(*number, bar));
-        let labels: Vec<u64> = lost.map(|(_, bar)| bar.label).collect();
-        match labels.is_empty() {
-            true => Ok(()),
-            false => Err(inverted(&self.name, &labels)),
-        }
     }
 
     fn stored_plan(&self) -> String {
@@ -577,9 +509,15 @@ impl Term for Truss {
     }
 
     fn properties(&self) -> Properties {
+        let is_viscous = self.damping.stiff().is_some();
+        let symmetry = match is_viscous && self.kinematics == Kinematics::Finite {
+            true => Symmetry::Unsymmetric,
+            false => Symmetry::Definite,
+        };
         Properties {
+            retardation: self.damping.retardation,
             elements: self.plan.as_ref().map_or(0, Plan::epoch),
-            ..Properties::new(Symmetry::Definite, Share::Bulk)
+            ..Properties::new(symmetry, Share::Bulk)
         }
     }
 
@@ -601,6 +539,7 @@ impl Term for Truss {
             Kinematics::Small
         };
         self.step = phase.step;
+        self.begin_damping(phase, from);
         if self.step.conserves() {
             let outcome = self.conserves_energy(self.kinematics);
             outcome.map_err(|e| TermError::Refused {
@@ -666,6 +605,9 @@ impl Term for Truss {
     /// The axial stress and strain as tensors `σ t tᵀ`, cell by cell; nodes have none, for bars meet at angles.
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let finite = self.kinematics == Kinematics::Finite;
+        if state.rates.is_some() && self.damping.retardation > 0.0 {
+            frame.energies.get_or_insert_default().damping += self.damping.spent;
+        }
         let (at, mut new) = (At::Trial(state), Vec::new());
         for (number, bar) in self.bars.iter().enumerate() {
             if self.plan.is_some() {
@@ -730,6 +672,7 @@ impl InitialStiffness for Truss {
 
 impl Stored for Truss {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.damping.spent += self.dissipation(state)?;
         let mut next = Vec::with_capacity(self.history.len());
         let (at, mut new) = (At::Trial(state), Vec::new());
         for (number, bar) in self.bars.iter().enumerate() {
@@ -747,6 +690,7 @@ impl Stored for Truss {
 
     fn save(&self, out: &mut Archive) {
         out.put(self.archived(), &self.history);
+        self.damping.save(&self.name, out);
         if let Some(plan) = &self.plan {
             plan.save(&self.stored_plan(), out);
             self.part.save(&self.stored_plan(), out);
@@ -755,6 +699,7 @@ impl Stored for Truss {
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
         from.get(&self.archived(), &mut self.history)?;
+        self.damping.load(&self.name, from)?;
         let (name, nbar) = (self.stored_plan(), self.bars.len());
         let width = self.width();
         if let Some(plan) = &mut self.plan {

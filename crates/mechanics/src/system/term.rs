@@ -15,6 +15,8 @@ pub struct Properties {
     /// Whether its stiffness between the ends of an increment, [`State::between`], is that against the end; else it is that
     /// against the state where it is evaluated.
     pub to_end: bool,
+    /// By which time its stiffness damps, times which it is against velocities; it has that part itself but in explicit steps.
+    pub retardation: f64,
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     pub has_saddle: bool,
     /// Identifies the elements, or bodies, that take part. Equal numbers mean equal ones, and with them an equal pattern, but for what
@@ -32,6 +34,7 @@ impl Properties {
             lifetime: Lifetime::State,
             role: Role::Internal,
             to_end: false,
+            retardation: 0.0,
             has_saddle: false,
             elements: 0,
         }

@@ -709,9 +709,15 @@ class MaterialDamping(Table):
     """
 
     _toml = "material.damping"
-    mass: Key[float | None, float] = Key(
+    mass: Key[float, float] = Key(
         "Force over mass and velocity (1/time); motions of the body as a whole are slowed, too",
         "number ≥ 0.0",
+        default=0.0,
+    )
+    stiffness: Key[float, float] = Key(
+        "Stress over the initial stiffness and the rate of strain (time)",
+        "number ≥ 0.0",
+        default=0.0,
     )
 
 

@@ -85,7 +85,7 @@ fn material<'a>(case: &'a Case, name: &case::Name) -> Option<&'a case::Material>
 
 /// The density of a rigid body.
 fn rigid_density(body: &Body, part: &case::Material, found: &mut Diagnostics) -> Option<f64> {
-    if part.damping != 0.0 {
+    if part.damping.is_any() {
         let message = "damping of a rigid body is not built";
         let place = body
             .material
@@ -151,7 +151,8 @@ fn body_part(
             case::MassMatrix::Lumped => MassMatrix::Lumped,
             case::MassMatrix::Auto | case::MassMatrix::Consistent => MassMatrix::Consistent,
         },
-        damping: part.damping,
+        damping: part.damping.mass,
+        retardation: part.damping.stiffness,
     };
     let material = oriented(law(part, own, found)?, body);
     let later = later(case, body, own, found);

@@ -71,7 +71,7 @@ fn a_vibration_is_as_exact_as_the_tolerance() {
     for tolerance in [1e-3, 1e-4, 1e-5] {
         let dynamics = format!("rho_inf = 0.9, error_tol = {tolerance:?}");
         let fixed = "increments = { fixed = 20 }";
-        let text = oscillator(&dynamics, 20, 0.05);
+        let text = oscillator(&dynamics, super::dampings()[0], 20, 0.05);
         assert!(text.contains(fixed));
         let adapts = "increments = { initial = 0.05, min = 1e-7, max = 0.2, count_max = 9999 }";
         let got = solved(&text.replace(fixed, adapts));

@@ -16,6 +16,7 @@ mod blocks;
 mod common;
 mod conserving;
 mod control;
+mod damped;
 mod explicit;
 mod impact;
 mod rigid;
@@ -93,15 +94,22 @@ fn refusal(text: &str) -> String {
     built.err().map_or_else(String::new, |found| found.plain())
 }
 
-/// One element between a base and nodes that move alike: a mass on a spring, with damping; pulled, and let go. Its frequency is 1.
-fn oscillator(dynamics: &str, increments: usize, h: f64) -> String {
+/// Damping of the oscillator over mass, over stiffness, and half of each: `a + b ω² = 2 ξ ω`.
+fn dampings() -> [[f64; 2]; 3] {
     let (w, xi) = (std::f64::consts::TAU, 0.02);
+    let (mass, stiffness) = (2.0 * xi * w, 2.0 * xi / w);
+    [[mass, 0.0], [0.0, stiffness], [0.5 * mass, 0.5 * stiffness]]
+}
+
+/// One element between a base and nodes that move alike: a mass on a spring, with damping; pulled, and let go. Its frequency is 1.
+fn oscillator(dynamics: &str, [mass, stiffness]: [f64; 2], increments: usize, h: f64) -> String {
+    let w = std::f64::consts::TAU;
     // k = E, m = ρ/2 of a cube of lumped mass
     format!(
         "[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 1, 1], [4, 0, 1]]\n\
          elements = [{{ id = 1, type = \"quad4\", group = \"e\", nodes = [1, 2, 3, 4] }}]\n\
          [model]\nspace = \"plane-strain\"\n\
-         [material.m]\nmodel = \"linear-elastic\"\nE = {:?}\nnu = 0.0\ndensity = 2.0\ndamping = {{ mass = {:?} }}\n\
+         [material.m]\nmodel = \"linear-elastic\"\nE = {:?}\nnu = 0.0\ndensity = 2.0\ndamping = {{ mass = {mass:?}, stiffness = {stiffness:?} }}\n\
          [[body]]\ngroup = \"e\"\nmaterial = \"m\"\nmass_matrix = \"lumped\"\n\
          [sets]\nbase = {{ nodes = [1, 4] }}\ntip = {{ nodes = [2, 3] }}\n\
          [[output.history]]\nname = \"tip\"\nset = \"tip\"\nquantity = [\"displacement.x\", \"velocity.x\", \"acceleration.x\"]\n\
@@ -110,7 +118,6 @@ fn oscillator(dynamics: &str, increments: usize, h: f64) -> String {
          [[step]]\nname = \"let go\"\nkind = \"dynamic\"\nduration = {:?}\nincrements = {{ fixed = {increments} }}\n\
          dynamics = {{ {dynamics} }}\nfree = [{{ on = \"tip\", u = [\"x\"] }}]\n",
         w * w,
-        2.0 * xi * w,
         h * increments as f64
     )
 }
@@ -147,9 +154,12 @@ const SCHEMES: [&str; 7] = [
 #[test]
 fn a_mass_on_a_spring_moves_as_the_recursion_says() {
     let (w, xi, h) = (std::f64::consts::TAU, 0.02, 0.05);
-    for dynamics in SCHEMES {
+    let cases = SCHEMES
+        .iter()
+        .flat_map(|one| dampings().map(|of| (*one, of)));
+    for (dynamics, damping) in cases {
         let [m, f, beta, gamma] = parameters(dynamics);
-        let got = solved(&oscillator(dynamics, 20, h));
+        let got = solved(&oscillator(dynamics, damping, 20, h));
         let (mut u, mut v) = (1.0, 0.0);
         let mut a = -w * w * u;
         for k in 0..20 {
@@ -185,9 +195,12 @@ fn a_mass_on_a_spring_is_that_of_the_reference() {
     let Some(reference) = common::reference("dynamics/single_dof.json") else {
         return;
     };
-    for dynamics in SCHEMES {
+    let cases = SCHEMES
+        .iter()
+        .flat_map(|one| dampings().map(|of| (*one, of)));
+    for (dynamics, damping) in cases {
         let name = dynamics.replace("alpha =", "hht").replace(" =", "");
-        let got = solved(&oscillator(dynamics, 20, 0.05));
+        let got = solved(&oscillator(dynamics, damping, 20, 0.05));
         for (row, key) in [(1, "step1"), (20, "step20")] {
             let wanted = &reference["table"][&name][key];
             for (k, what) in ["displacement", "velocity", "acceleration"]

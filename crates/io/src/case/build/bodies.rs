@@ -39,7 +39,10 @@ impl Builder<'_> {
             constants: constants.unwrap_or_default(),
             own: fields.text_if(OWN),
             density: fields.number_if("density"),
-            damping: fields.table("damping").number("mass"),
+            damping: MaterialDamping {
+                mass: fields.table("damping").number("mass"),
+                stiffness: fields.table("damping").number("stiffness"),
+            },
             expansion: fields.has("expansion").then(|| self.expansion(expansion)),
             plasticity,
             model,

@@ -48,6 +48,22 @@ impl Locking {
     }
 }
 
+/// Viscous forces of a material in motions in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MaterialDamping {
+    /// Over mass and velocity (1/time).
+    pub mass: f64,
+    /// Over the initial stiffness and the rate of strain (time).
+    pub stiffness: f64,
+}
+
+impl MaterialDamping {
+    /// Whether there are any.
+    pub fn is_any(&self) -> bool {
+        *self != Self::default()
+    }
+}
+
 /// A material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -61,8 +77,8 @@ pub struct Material {
     pub own: Option<Name>,
     /// Density (mass per volume).
     pub density: Option<Spanned<f64>>,
-    /// Viscous forces over mass and velocity (1/time), in dynamic steps.
-    pub damping: f64,
+    /// Viscous forces in dynamic steps.
+    pub damping: MaterialDamping,
     /// Thermal expansion.
     pub expansion: Option<Expansion>,
     /// Yielding and hardening.

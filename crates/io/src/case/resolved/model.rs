@@ -207,8 +207,11 @@ pub(super) fn material(one: &Material) -> Entries {
             .as_ref()
             .map(|density| ("density", density.value.into())),
     );
-    if one.damping != 0.0 {
-        let damping = vec![("mass", one.damping.into())];
+    if one.damping.is_any() {
+        let damping = vec![
+            ("mass", one.damping.mass.into()),
+            ("stiffness", one.damping.stiffness.into()),
+        ];
         entries.push(("damping", Value::Table(damping)));
     }
     entries.extend(one.expansion.as_ref().map(|expansion| {

@@ -24,13 +24,22 @@ pub(super) static MATERIAL: Table = Table {
 static DAMPING: Table = Table {
     heading: "damping",
     doc: "viscous forces in dynamic steps",
-    keys: &[key(
-        "mass",
-        NOT_NEGATIVE,
-        "force over mass and velocity (1/time); motions of the body as a whole are slowed, too",
-    )
-    .required()
-    .hints(&["alpha"])],
+    keys: &[
+        key(
+            "mass",
+            NOT_NEGATIVE,
+            "force over mass and velocity (1/time); motions of the body as a whole are slowed, too",
+        )
+        .or(Default::Number(0.0))
+        .hints(&["alpha"]),
+        key(
+            "stiffness",
+            NOT_NEGATIVE,
+            "stress over the initial stiffness and the rate of strain (time)",
+        )
+        .or(Default::Number(0.0))
+        .hints(&["beta"]),
+    ],
     rules: &[],
 };
 static EXPANSION: Table = Table {

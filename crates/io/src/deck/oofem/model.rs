@@ -3,7 +3,7 @@
 use super::Translation;
 use crate::case::{
     AtNodes, Body, Constant, Constraint, ConstraintKind, Directions, Fix, Hardening, Integration,
-    Locking, Material, Model, Plasticity, Space, Summand, Temperatures, Thickness,
+    Locking, Material, MaterialDamping, Model, Plasticity, Space, Summand, Temperatures, Thickness,
 };
 use crate::deck::Compat;
 use crate::diagnostic::{Place, Spanned, codes};
@@ -304,7 +304,7 @@ impl Translation {
             constants,
             own: None,
             density: density.map(|d| Spanned::new(d, record.place_of_field("d"))),
-            damping: 0.0,
+            damping: MaterialDamping::default(),
             expansion: None,
             plasticity,
             place,

@@ -94,7 +94,7 @@ fn explicit_steps_have_intervals() {
             method,
             DynamicMethod::Explicit { scaling: None, .. }
         ));
-        assert_eq!(read.case.materials[0].damping, 2.0);
+        assert_eq!(read.case.materials[0].damping.mass, 2.0);
         (step.duration, step.increments)
     };
     assert_eq!(of("0.1, 2."), (2.0, Increments::Fixed(20)));
@@ -111,7 +111,7 @@ fn damping_is_that_of_its_material() {
     );
     for (compat, wanted) in [(Compat::None, [0.0, 3.0]), (Compat::Ccx, [3.0, 3.0])] {
         let read = translated(&deck, compat).unwrap();
-        let damping: Vec<f64> = read.case.materials.iter().map(|m| m.damping).collect();
+        let damping: Vec<f64> = read.case.materials.iter().map(|m| m.damping.mass).collect();
         assert_eq!(damping, wanted);
     }
 }

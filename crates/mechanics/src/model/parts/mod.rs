@@ -90,13 +90,15 @@ pub enum MassMatrix {
     Lumped,
 }
 
-/// What a body does by its mass in a step with inertia, besides its density.
+/// What a body does in a step with inertia, besides its density.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MassPart {
     /// Where the mass is.
     pub matrix: MassMatrix,
     /// Viscous forces over mass and velocity.
     pub damping: f64,
+    /// Viscous stress over the initial stiffness of its material and the rate of strain (time).
+    pub retardation: f64,
 }
 
 /// A body.
@@ -119,7 +121,7 @@ pub enum BodyKind {
         later: Vec<(usize, Box<dyn Material>)>,
         /// Mass per volume, where it is known.
         density: Option<f64>,
-        /// What else it does by its mass.
+        /// What else it does in motions in time.
         mass: MassPart,
         /// Full or reduced integration.
         integration: Integration,
@@ -146,7 +148,7 @@ pub enum BodyKind {
         material: Box<dyn Material>,
         /// Mass per volume, where it is known.
         density: Option<f64>,
-        /// What else it does by its mass.
+        /// What else it does in motions in time.
         mass: MassPart,
         /// Cross-section (area).
         area: f64,

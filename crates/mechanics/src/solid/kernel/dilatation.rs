@@ -30,26 +30,26 @@ use crate::material::{Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
 /// The most terms of the polynomial: constant and linear.
-const MOST: usize = 4;
+pub(super) const MOST: usize = 4;
 
 /// Vectors at the nodes.
-type Nodal<const NN: usize, const ND: usize> = [[f64; ND]; NN];
+pub(super) type Nodal<const NN: usize, const ND: usize> = [[f64; ND]; NN];
 
 /// A point and its dilatation.
-struct Dilated<const NN: usize, const ND: usize, const NG: usize> {
-    at: Place<NN, NG>,
-    h: Mat3,
-    f: Mat3,
+pub(super) struct Dilated<const NN: usize, const ND: usize, const NG: usize> {
+    pub at: Place<NN, NG>,
+    pub h: Mat3,
+    pub f: Mat3,
     /// ϑ.
-    value: f64,
+    pub value: f64,
     /// F⁻ᵀ N_I,X.
-    spatial: [[f64; NG]; NN],
+    pub spatial: [[f64; NG]; NN],
     /// The polynomial's terms.
-    basis: [f64; MOST],
+    pub basis: [f64; MOST],
 }
 
 impl<const NN: usize, const ND: usize, const NG: usize> Dilated<NN, ND, NG> {
-    fn new(element: &Element<'_>, frame: &Frame, point: usize) -> Result<Self, Failure> {
+    pub fn new(element: &Element<'_>, frame: &Frame, point: usize) -> Result<Self, Failure> {
         let at = place::<NN, ND, NG>(element, point)?;
         let h = displacement_gradient::<NN, ND, NG>(&at.gradient, element.u);
         let finite = element.is_finite();
@@ -77,7 +77,7 @@ impl<const NN: usize, const ND: usize, const NG: usize> Dilated<NN, ND, NG> {
     }
 
     /// δϑ of each node's displacement.
-    fn divergence(&self) -> Nodal<NN, ND> {
+    pub fn divergence(&self) -> Nodal<NN, ND> {
         let mut out = [[0.0; ND]; NN];
         for (out, g) in out.iter_mut().zip(&self.spatial) {
             out.copy_from_slice(&g[..ND]);
@@ -98,14 +98,14 @@ fn determinant_minus_one(h: Mat3) -> f64 {
 }
 
 /// Where the polynomial has its origin, and its length.
-struct Frame {
+pub(super) struct Frame {
     centre: Vec3,
     per_length: f64,
-    nterm: usize,
+    pub nterm: usize,
 }
 
 impl Frame {
-    fn new(element: &Element<'_>) -> Self {
+    pub fn new(element: &Element<'_>) -> Self {
         let centre = element.x.iter().copied().sum::<Vec3>() / element.x.len() as f64;
         let sizes = element.x.iter().map(|x| (*x - centre).max_abs());
         Self {
@@ -122,13 +122,13 @@ impl Frame {
 }
 
 /// The projection onto the polynomial: the inverse of `Σ w φ φᵀ`.
-struct Projection {
+pub(super) struct Projection {
     inverse: [f64; MOST * MOST],
     nterm: usize,
 }
 
 impl Projection {
-    fn new(gram: &[[f64; MOST]; MOST], nterm: usize) -> Result<Self, Failure> {
+    pub fn new(gram: &[[f64; MOST]; MOST], nterm: usize) -> Result<Self, Failure> {
         let mut a = [0.0; MOST * MOST];
         let mut inverse = [0.0; MOST * MOST];
         for i in 0..nterm {
@@ -140,7 +140,7 @@ impl Projection {
     }
 
     /// What moments are multiplied by to give the projection's value where the terms are `basis`.
-    fn factors(&self, basis: &[f64; MOST]) -> [f64; MOST] {
+    pub fn factors(&self, basis: &[f64; MOST]) -> [f64; MOST] {
         let n = self.nterm;
         let mut out = [0.0; MOST];
         for i in 0..n {
@@ -152,23 +152,23 @@ impl Projection {
     }
 }
 
-fn dot(a: &[f64; MOST], b: &[f64; MOST]) -> f64 {
+pub(super) fn dot(a: &[f64; MOST], b: &[f64; MOST]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Moments of the terms of the projection over an element.
-struct Moments<const NN: usize, const ND: usize> {
+pub(super) struct Moments<const NN: usize, const ND: usize> {
     /// Σ w φ φᵀ
-    gram: [[f64; MOST]; MOST],
+    pub gram: [[f64; MOST]; MOST],
     /// Σ w φ ϑ
-    value: [f64; MOST],
+    pub value: [f64; MOST],
     /// Σ w φ δϑ
-    divergence: [[[f64; ND]; NN]; MOST],
+    pub divergence: [[[f64; ND]; NN]; MOST],
 }
 
 impl<const NN: usize, const ND: usize> Moments<NN, ND> {
     #[inline]
-    fn new<const NG: usize>(element: &Element<'_>, frame: &Frame) -> Result<Self, Failure> {
+    pub fn new<const NG: usize>(element: &Element<'_>, frame: &Frame) -> Result<Self, Failure> {
         let mut moments = Self {
             gram: [[0.0; MOST]; MOST],
             value: [0.0; MOST],
@@ -203,33 +203,17 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     out.reset();
 
     let frame = Frame::new(element);
-    let nterm = frame.nterm;
-    let Moments {
-        gram,
-        value: moments,
-        divergence: divergences,
-    } = Moments::<NN, ND>::new::<NG>(element, &frame)?;
-    let projection = Projection::new(&gram, nterm)?;
+    let moments = Moments::<NN, ND>::new::<NG>(element, &frame)?;
+    let projection = Projection::new(&moments.gram, frame.nterm)?;
 
     let mut response = Response::default();
-    let mut pressures = [0.0; MOST];
-    out.scratch.clear();
-    out.scratch.resize(npoint, 0.0);
+    let mut pressures = Pressures::new(npoint, out);
     for point in 0..npoint {
         let here = Dilated::<NN, ND, NG>::new(element, &frame, point)?;
-        let gradient = &here.at.gradient;
         let weight = here.at.weight;
         let factors = projection.factors(&here.basis);
-        let m = (dot(&factors, &moments) - here.value) / 3.0;
-        let mut dm = here.divergence();
-        for (node, dm) in dm.iter_mut().enumerate() {
-            for i in 0..ND {
-                let mean: f64 = (0..nterm)
-                    .map(|t| factors[t] * divergences[t][node][i])
-                    .sum();
-                dm[i] = (mean - dm[i]) / 3.0;
-            }
-        }
+        let m = (dot(&factors, &moments.value) - here.value) / 3.0;
+        let dm = projected(&factors, &moments.divergence, here.divergence());
         let (value, metric, square) = dilated(strain(here.h, finite), m, finite);
         element.respond(point, value, order, out.new, &mut response)?;
         out.energy += weight * response.energy;
@@ -244,51 +228,146 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
             *sample = element.sample(point, h, [weight, ratio], out.new, &response);
             continue;
         }
-        let stress = response.stress * square;
-        let pressure = stress.double_dot(metric);
+        let stretched = Stretched {
+            dm,
+            metric,
+            square,
+            finite,
+            symmetric,
+        };
+        let pressure = stretched.add(&here, &response, order, out);
+        pressures.add(point, &here, pressure, out);
+    }
+    if finite && !out.stiffness.is_empty() {
+        pressures.curve::<NN, ND, NG>(element, &frame, &projection, symmetric, out)?;
+    }
+    Ok(())
+}
+
+/// `⅓ (π[δϑ] − δϑ)` of every displacement, from the moments of `δϑ` and its value here.
+#[inline]
+pub(super) fn projected<const NN: usize, const ND: usize>(
+    factors: &[f64; MOST],
+    moments: &[Nodal<NN, ND>; MOST],
+    mut here: Nodal<NN, ND>,
+) -> Nodal<NN, ND> {
+    for (node, dm) in here.iter_mut().enumerate() {
+        for i in 0..ND {
+            // terms that are not in use have the factor 0
+            let mean: f64 = (0..MOST).map(|t| factors[t] * moments[t][node][i]).sum();
+            dm[i] = (mean - dm[i]) / 3.0;
+        }
+    }
+    here
+}
+
+/// A point at which the dilatation has been projected.
+pub(super) struct Stretched<const NN: usize, const ND: usize> {
+    /// δm of each displacement.
+    pub dm: Nodal<NN, ND>,
+    /// C.
+    pub metric: Sym3,
+    /// s².
+    pub square: f64,
+    pub finite: bool,
+    /// Whether only blocks on and above the diagonal are wanted.
+    pub symmetric: bool,
+}
+
+impl<const NN: usize, const ND: usize> Stretched<NN, ND> {
+    /// Adds (E7) and all of (E8) but its last part, for which the pressure comes back.
+    #[inline]
+    pub fn add<const NG: usize>(
+        &self,
+        here: &Dilated<NN, ND, NG>,
+        response: &Response,
+        order: Order,
+        out: &mut Output<'_>,
+    ) -> f64 {
+        let Self {
+            dm,
+            metric,
+            square,
+            finite,
+            symmetric,
+        } = self;
+        let (gradient, weight) = (&here.at.gradient, here.at.weight);
+        let stress = response.stress * *square;
+        let pressure = stress.double_dot(*metric);
         let force = contract::<NN, ND, NG>(gradient, &here.f, &stress);
         add_force(out.force, weight, &force);
-        add_force(out.force, weight * pressure, &dm); // (E7)
+        add_force(out.force, weight * pressure, dm); // (E7)
         if order == Order::Stress {
-            continue;
+            return pressure;
         }
         // (E8)
         let tangent = response.tangent.map(|r| r.map(|c| c * square * square));
         let f = finite.then_some([&here.f; 2]);
-        add_stiffness::<NN, ND, NG>(gradient, f, weight, &stress, &tangent, symmetric, out);
-        let twice = if finite { 2.0 } else { 0.0 };
-        let (left, right) = contractions(&tangent, &metric);
-        let both = right.double_dot(metric) + twice * pressure;
+        add_stiffness::<NN, ND, NG>(gradient, f, weight, &stress, &tangent, *symmetric, out);
+        let twice = if *finite { 2.0 } else { 0.0 };
+        let (left, right) = contractions(&tangent, metric);
+        let both = right.double_dot(*metric) + twice * pressure;
         let left = contract::<NN, ND, NG>(gradient, &here.f, &(left + stress * twice));
         let right = contract::<NN, ND, NG>(gradient, &here.f, &(right + stress * twice));
         let (dm, left, right) = (dm.as_flattened(), left.as_flattened(), right.as_flattened());
         let n = NN * ND;
         for (dof, to) in out.stiffness.chunks_exact_mut(n).enumerate() {
-            let first = if symmetric { dof / ND * ND } else { 0 };
+            let first = if *symmetric { dof / ND * ND } else { 0 };
             let (a, b) = (weight * dm[dof], weight * (right[dof] + both * dm[dof]));
             for ((to, left), dm) in to[first..].iter_mut().zip(&left[first..]).zip(&dm[first..]) {
                 *to += a * left + b * dm;
             }
         }
+        pressure
+    }
+}
+
+/// Pressures of the points, and their moments.
+pub(super) struct Pressures([f64; MOST]);
+
+impl Pressures {
+    pub fn new(npoint: usize, out: &mut Output<'_>) -> Self {
+        out.scratch.clear();
+        out.scratch.resize(npoint, 0.0);
+        Self([0.0; MOST])
+    }
+
+    #[inline]
+    pub fn add<const NN: usize, const ND: usize, const NG: usize>(
+        &mut self,
+        point: usize,
+        here: &Dilated<NN, ND, NG>,
+        pressure: f64,
+        out: &mut Output<'_>,
+    ) {
         out.scratch[point] = pressure;
-        for m in 0..nterm {
-            pressures[m] += weight * here.basis[m] * pressure;
+        for (to, basis) in self.0.iter_mut().zip(&here.basis) {
+            *to += here.at.weight * basis * pressure;
         }
     }
-    if finite && !out.stiffness.is_empty() {
-        for point in 0..npoint {
-            let here = Dilated::<NN, ND, NG>::new(element, &frame, point)?;
-            let mean = dot(&projection.factors(&here.basis), &pressures);
+
+    /// Adds the last part of (E8).
+    pub fn curve<const NN: usize, const ND: usize, const NG: usize>(
+        &self,
+        element: &Element<'_>,
+        frame: &Frame,
+        projection: &Projection,
+        symmetric: bool,
+        out: &mut Output<'_>,
+    ) -> Result<(), Failure> {
+        for point in 0..element.npoint() {
+            let here = Dilated::<NN, ND, NG>::new(element, frame, point)?;
+            let mean = dot(&projection.factors(&here.basis), &self.0);
             let factor = here.at.weight * (mean - out.scratch[point]) / 3.0; // (E9)
             add_curvature::<NN, ND, NG>(&here.spatial, factor, symmetric, out.stiffness);
         }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The strain with the dilatation `m`, its metric, and the square of the stretch.
 #[inline]
-fn dilated(plain: Sym3, m: f64, finite: bool) -> (Sym3, Sym3, f64) {
+pub(super) fn dilated(plain: Sym3, m: f64, finite: bool) -> (Sym3, Sym3, f64) {
     let identity = Sym3::IDENTITY;
     if finite {
         let growth = (2.0 * m).exp_m1();

@@ -13,6 +13,9 @@ pub(in crate::solid) struct Element<'a> {
     pub u: &'a [f64],
     /// Their way in the increment, where stresses are secants; `u` is then halfway.
     pub way: &'a [f64],
+    /// Their velocities, where stresses follow from rates of strain, and by what these change with displacements.
+    pub rate: &'a [f64],
+    pub slope: f64,
     pub material: &'a dyn Material,
     pub kinematics: Kinematics,
     pub space: Idealisation,

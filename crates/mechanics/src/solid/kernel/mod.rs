@@ -18,10 +18,12 @@ mod plain;
 mod secant;
 mod shear;
 mod stiffness;
+mod viscous;
 
 pub(super) use batch::{Batch, BatchKernel, Results};
 pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 pub(super) use lanes::width;
+pub(super) use stiffness::mirror;
 
 use crate::material::dense;
 use crate::material::{Kinematics, MaterialError, Order, Response, Strain};
@@ -48,6 +50,8 @@ struct Kernels {
     plain: Kernel,
     /// The same between the ends of an increment where energy is conserved.
     secant: Kernel,
+    /// What a stress over the rate of strain does at finite strain, without a remedy and with a projected dilatation.
+    viscous: [Kernel; 2],
     /// The plain one for several cells at once.
     batch: Option<BatchKernel>,
     dilatation: Option<Kernel>,
@@ -60,6 +64,10 @@ const fn kernels<const NN: usize, const ND: usize, const NG: usize>() -> Kernels
         nnode: NN,
         plain: plain::respond::<NN, ND, NG>,
         secant: secant::respond::<NN, ND, NG>,
+        viscous: [
+            viscous::plain::<NN, ND, NG>,
+            viscous::dilatation::<NN, ND, NG>,
+        ],
         batch: None,
         dilatation: Some(dilatation::respond::<NN, ND, NG>),
         modes: None,
@@ -73,6 +81,7 @@ const fn bare<const NN: usize, const ND: usize, const NG: usize>() -> Kernels {
         nnode: NN,
         plain: plain::respond::<NN, ND, NG>,
         secant: secant::respond::<NN, ND, NG>,
+        viscous: [viscous::plain::<NN, ND, NG>; 2],
         batch: None,
         dilatation: None,
         modes: None,
@@ -159,6 +168,20 @@ pub(super) fn secant_kernel(
 ) -> Option<Kernel> {
     let found = kernels_of(element, space).filter(|_| remedy == Remedy::None)?;
     Some(found.secant)
+}
+
+/// The kernel of a stress over the rate of strain at finite strain; `None` where there is none.
+pub(super) fn viscous_kernel(
+    element: &dyn ReferenceElement,
+    space: Idealisation,
+    remedy: Remedy,
+) -> Option<Kernel> {
+    let [plain, dilatation] = kernels_of(element, space)?.viscous;
+    match remedy {
+        Remedy::None => Some(plain),
+        Remedy::Dilatation => Some(dilatation),
+        Remedy::Modes | Remedy::Shear => None,
+    }
 }
 
 /// The kernel of an element; `None` where there is none.

@@ -189,7 +189,7 @@ fn moduli<const ND: usize, const NG: usize>(
 }
 
 /// Copies the blocks above the diagonal to those below.
-pub(super) fn mirror(stiffness: &mut [f64], n: usize, ndim: usize) {
+pub(in crate::solid) fn mirror(stiffness: &mut [f64], n: usize, ndim: usize) {
     for row in 0..n {
         for column in 0..row / ndim * ndim {
             stiffness[row * n + column] = stiffness[column * n + row];

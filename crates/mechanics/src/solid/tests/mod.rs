@@ -26,6 +26,7 @@ mod samples;
 mod speed;
 mod start;
 mod truss;
+mod viscous;
 
 const LOCKINGS: [Locking; 6] = [
     Locking::Auto,
