@@ -6,7 +6,9 @@
 
 use super::compat::Compat;
 use super::translation::Translation;
-use crate::case::{DynamicMethod, Dynamics, ERROR_TOL, IMPACT_STEP, SAFETY, Step, VelocityAt};
+use crate::case::{
+    DynamicMethod, Dynamics, ERROR_TOL, IMPACT_STEP, MaterialDamping, SAFETY, Step, VelocityAt,
+};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use std::collections::BTreeMap;
@@ -62,7 +64,8 @@ impl Translation<'_> {
         });
     }
 
-    /// *DAMPING: of the material that it stands in, or of all; of CalculiX always of all.
+    /// *DAMPING: of the material that it stands in, or of all; of CalculiX always of all. BETA is left out where all motions are
+    /// explicit.
     fn damping(&mut self, is_explicit: bool) {
         if let Some(place) = self
             .cards("MODALDAMPING")
@@ -74,21 +77,26 @@ impl Translation<'_> {
         }
         let mut material: Option<String> = None;
         let deck = self.deck;
+        let mut motions = deck
+            .statements
+            .iter()
+            .filter(|card| card.keyword == "DYNAMIC");
+        let implicit = motions.any(|card| !card.has("EXPLICIT"));
         for card in &deck.statements {
             match card.keyword.as_str() {
                 "MATERIAL" => material = card.peek("NAME").map(compared),
                 "DAMPING" => {
                     let [mass, stiffness] = ["ALPHA", "BETA"].map(|key| self.damped(card, key));
+                    let text = match implicit {
+                        true => {
+                            "BETA of *DAMPING damps in explicit steps, too, as others need it: CalculiX leaves it out there"
+                        }
+                        false => "BETA of *DAMPING is left out in explicit steps, as CalculiX does",
+                    };
                     if stiffness > 0.0 && is_explicit {
-                        let text =
-                            "BETA of *DAMPING is left out in explicit steps, as CalculiX does";
                         self.note(text.to_owned(), &card.place);
-                    } else if stiffness > 0.0 {
-                        let text = "BETA of *DAMPING is not supported";
-                        let remark =
-                            "damping over the stiffness is not built; ALPHA is that over the mass";
-                        self.error(&codes::NOT_BUILT, text, &card.place, remark);
                     }
+                    let stiffness = if implicit { stiffness } else { 0.0 };
                     let own = material.as_ref().filter(|_| self.compat != Compat::Ccx);
                     if mass > 0.0 && own.is_none() && !self.point_masses.is_empty() {
                         let text = "ALPHA of *DAMPING does not damp MASS elements here";
@@ -98,7 +106,7 @@ impl Translation<'_> {
                     let damped = self.case.materials.iter_mut();
                     let damped =
                         damped.filter(|one| own.is_none_or(|own| compared(&one.name) == *own));
-                    damped.for_each(|one| one.damping.mass = mass);
+                    damped.for_each(|one| one.damping = MaterialDamping { mass, stiffness });
                 }
                 _ => {}
             }

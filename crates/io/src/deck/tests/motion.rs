@@ -94,7 +94,8 @@ fn explicit_steps_have_intervals() {
             method,
             DynamicMethod::Explicit { scaling: None, .. }
         ));
-        assert_eq!(read.case.materials[0].damping.mass, 2.0);
+        let damping = read.case.materials[0].damping;
+        assert_eq!([damping.mass, damping.stiffness], [2.0, 0.0]);
         (step.duration, step.increments)
     };
     assert_eq!(of("0.1, 2."), (2.0, Increments::Fixed(20)));
@@ -105,13 +106,15 @@ fn explicit_steps_have_intervals() {
 /// Damping is that of the material in which it stands; with `--compat ccx` of all.
 #[test]
 fn damping_is_that_of_its_material() {
+    const BOTH: [f64; 2] = [3.0, 1e-3];
     let deck = dynamic("", "").replace(
         "*DENSITY\n2.\n",
-        "*DENSITY\n2.\n*MATERIAL, NAME=N\n*ELASTIC\n1., 0.\n*DAMPING, ALPHA=3.\n",
+        "*DENSITY\n2.\n*MATERIAL, NAME=N\n*ELASTIC\n1., 0.\n*DAMPING, ALPHA=3., BETA=1E-3\n",
     );
-    for (compat, wanted) in [(Compat::None, [0.0, 3.0]), (Compat::Ccx, [3.0, 3.0])] {
+    for (compat, wanted) in [(Compat::None, [[0.0; 2], BOTH]), (Compat::Ccx, [BOTH; 2])] {
         let read = translated(&deck, compat).unwrap();
-        let damping: Vec<f64> = read.case.materials.iter().map(|m| m.damping.mass).collect();
+        let damping = read.case.materials.iter().map(|m| m.damping);
+        let damping: Vec<[f64; 2]> = damping.map(|of| [of.mass, of.stiffness]).collect();
         assert_eq!(damping, wanted);
     }
 }
@@ -140,11 +143,6 @@ fn contacts_that_damp_have_a_penalty() {
 fn what_dynamic_decks_cannot_have_is_refused() {
     for (cards, parameters, expected) in [
         ("", ", ALPHA=much", "ALPHA of *DYNAMIC is no number"),
-        (
-            "*DAMPING, ALPHA=2., BETA=1E-3\n",
-            "",
-            "BETA of *DAMPING is not supported",
-        ),
         (
             "*DAMPING, ALPHA=-2.\n",
             "",
