@@ -449,7 +449,7 @@ impl Assembler {
             trial,
             bulk,
             interface,
-            order,
+            turning: order == Order::Tangent,
             shared: shared.as_ref(),
         };
         // between the ends of an increment
@@ -507,7 +507,7 @@ impl Assembler {
             }
             Ok(())
         };
-        self.assemble_by(layout, elimination, terms, state, evaluate, out)
+        self.assemble_by(layout, elimination, terms, state, (evaluate, false), out)
     }
 
     /// The stiffness at a state of those terms that `takes` answers yes to; of inertia where no increment has begun, that is the mass.
@@ -530,7 +530,7 @@ impl Assembler {
             }
             term.evaluate(task.chunk, state, Order::Tangent, work, buffer)
         };
-        self.assemble_by(layout, elimination, terms, state, evaluate, out)
+        self.assemble_by(layout, elimination, terms, state, (evaluate, true), out)
     }
 
     /// Takes the symmetric part of an operator; returns the largest entry of the rest over that of the operator.
@@ -577,14 +577,17 @@ impl Assembler {
         if largest > 0.0 { apart / largest } else { 0.0 }
     }
 
-    /// Adds up what `evaluate` makes of every chunk, forces and stiffness.
+    /// Adds up what `evaluate` makes of every chunk, forces and stiffness, with that of forces that are `turning` with what they act on.
     fn assemble_by(
         &mut self,
         layout: &Layout,
         elimination: &Elimination,
         terms: &[Box<dyn Term>],
         state: &State,
-        evaluate: impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
+        (evaluate, turning): (
+            impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
+            bool,
+        ),
         out: &mut Assembly,
     ) -> Result<(), TermError> {
         self.share_out(layout, elimination, terms);
@@ -607,7 +610,7 @@ impl Assembler {
             trial: state,
             bulk,
             interface,
-            order: Order::Tangent,
+            turning,
             shared: shared.as_ref(),
         };
         let size = wave(Order::Tangent);
@@ -660,7 +663,14 @@ impl Assembler {
                 None => Ok(()),
             }
         };
-        self.assemble_by(layout, elimination, terms, state, evaluate, &mut out)?;
+        self.assemble_by(
+            layout,
+            elimination,
+            terms,
+            state,
+            (evaluate, true),
+            &mut out,
+        )?;
         Ok(out.bulk)
     }
 

@@ -542,14 +542,14 @@ impl Elimination {
     }
 
     /// Replaces dependent unknowns in a local force and stiffness, equations (E1) to (E3). The stiffness, row-major, is
-    /// empty where there is none; that of the turning forces is added whenever it is `wanted`.
+    /// empty where there is none; that of the turning forces is added where forces are `turning`.
     #[expect(clippy::too_many_arguments)]
     pub(super) fn expand(
         &self,
         dofs: &[Dof],
         force: &[f64],
         stiffness: &[f64],
-        wanted: bool,
+        turning: bool,
         state: &State,
         layout: &Layout,
         out: &mut Expanded,
@@ -576,7 +576,7 @@ impl Elimination {
                 out.force[k] += c * f;
             }
         }
-        if !wanted {
+        if !turning && stiffness.is_empty() {
             return;
         }
         out.stiffness.resize(m * m, 0.0);
@@ -595,7 +595,9 @@ impl Elimination {
                 }
             }
         }
-        self.turning_forces(state, layout, out);
+        if turning {
+            self.turning_forces(state, layout, out);
+        }
     }
 
     /// The change of the moments with the arms, (E2); none where rotations are small.

@@ -6,7 +6,7 @@ use super::elimination::Expanded;
 use super::shares::{Share, divide};
 use super::sink::fill_up;
 use super::strip::{Strip, find_blocks, find_places};
-use super::{Dof, Elimination, Layout, NO_DOF, Order, Part, State, TermError, Work};
+use super::{Dof, Elimination, Layout, NO_DOF, Part, State, TermError, Work};
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 use signorini_linear::sparsity::{BlockPattern, Pattern};
@@ -19,7 +19,8 @@ pub(super) struct Setting<'a> {
     pub trial: &'a State,
     pub bulk: &'a BlockPattern,
     pub interface: &'a Pattern,
-    pub order: Order,
+    /// Whether what follows has the stiffness of forces that turn with it.
+    pub turning: bool,
     pub shared: Option<&'a Shared>,
 }
 
@@ -217,7 +218,7 @@ impl Setting<'_> {
                 dofs,
                 force,
                 stiffness,
-                self.order == Order::Tangent,
+                self.turning,
                 self.trial,
                 self.layout,
                 expanded,
