@@ -8,6 +8,9 @@ pub trait Impulsive {
     /// Whether impulses act on its rows.
     fn is_hard(&self) -> bool;
 
+    /// Whether its rows have their velocities by impulses after an increment in which they have met: where no side yields.
+    fn bounces(&self) -> bool;
+
     /// The rows that are no farther apart than `reach` at a state.
     ///
     /// # Errors

@@ -71,6 +71,7 @@ mod strip;
 mod term;
 #[cfg(test)]
 mod tests;
+mod touching;
 mod whole;
 
 pub use activity::{Activity, CellChange};
@@ -101,4 +102,5 @@ pub use signorini_linear::Symmetry;
 pub use sink::{Lifetime, Order, Part, PatternSink, Role, Sink, TermError, Work};
 pub use state::State;
 pub use term::{Properties, Term};
+pub(crate) use touching::{Act, Touching, choose_again, touching};
 pub use whole::System;

@@ -90,19 +90,6 @@ impl Builder<'_> {
             );
         }
         self.keeps_elements("dynamic", found);
-        let is_explicit = matches!(dynamics.method, DynamicMethod::Explicit { .. });
-        let mut contacts = self.case.contacts.iter();
-        if let Some(of) = contacts.find(|of| *of.restitution > 0.0 && !is_explicit) {
-            let message = format!(
-                "step \"{}\" has no impulses, which `restitution` is of",
-                step.name.value
-            );
-            found.push(
-                Diagnostic::error(&codes::NOT_BUILT, message)
-                    .at(&of.restitution.place, "implicit steps have forces")
-                    .help("dynamics = { method = \"explicit\" }  of the step, or a `penalty`"),
-            );
-        }
         let scheme = match dynamics.method {
             DynamicMethod::GeneralizedAlpha(radius) => Scheme::generalized_alpha(radius),
             DynamicMethod::HilberHughesTaylor(alpha) => Scheme::hilber_hughes_taylor(alpha),

@@ -371,8 +371,13 @@ fn what_explicit_steps_cannot_have_is_refused() {
         "{said}"
     );
     let implicit = Bar::default().text().replace("[initial]", bounces);
-    let said = refusal(&implicit);
-    assert!(said.contains("has no impulses"), "{said}");
+    let error = run(&mut model("yields", &implicit, &[])).error.unwrap();
+    assert!(
+        error
+            .to_string()
+            .contains("sides that yield have by themselves"),
+        "{error}"
+    );
     let damped = bar.clone().penalty(1.0).text();
     let damped = damped.replace("[initial]", "damping = { normal = 1.0 }\n[initial]");
     let error = run(&mut model("damped", &damped, &[])).error.unwrap();

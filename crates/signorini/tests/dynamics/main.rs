@@ -18,6 +18,7 @@ mod conserving;
 mod control;
 mod damped;
 mod explicit;
+mod hard;
 mod impact;
 mod rigid;
 mod start;

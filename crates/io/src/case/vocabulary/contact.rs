@@ -83,7 +83,7 @@ pub(super) static CONTACT: Table = Table {
                 to: Some(1.0),
                 ..FREE
             }),
-            "the velocity with which points leave an impact, over that with which they came: of multipliers, in explicit steps",
+            "the velocity with which points leave an impact, over that with which they came: of multipliers, between rigid sides, and in explicit steps",
         )
         .or(Default::Number(0.0)),
         key(

@@ -1,8 +1,7 @@
 //! What a contact remembers.
 
 use super::coupled::Coupled;
-use super::memory::Memory;
-use super::weighted::Ends;
+use super::memory::{Ends, Memory};
 use super::{
     Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, Shift, State,
     TermError, Verdict,

@@ -39,6 +39,17 @@ impl Interface {
         })
     }
 
+    /// Why a step with inertia whose equations are solved cannot take it; nothing where it can.
+    pub(super) fn not_implicit(&self) -> Option<String> {
+        let yields = self.parts.restitution > 0.0 && !self.parts.is_rigid;
+        yields.then(|| {
+            format!(
+                "contact \"{}\" has a `restitution`, which sides that yield have by themselves: delete it, or let both sides be rigid",
+                self.parts.name
+            )
+        })
+    }
+
     /// The largest stiffness of a row that is closed, per gap and slip.
     fn stiffness(&self, row: &Row) -> f64 {
         let laws = self.laws_of(row.number);
@@ -58,6 +69,10 @@ impl Interface {
 impl Impulsive for Interface {
     fn is_hard(&self) -> bool {
         self.has_unknown_multipliers()
+    }
+
+    fn bounces(&self) -> bool {
+        self.is_hard() && self.is_active() && self.parts.is_rigid
     }
 
     fn near_rows(

@@ -3,6 +3,7 @@
 use super::{Contact, Lambda};
 use crate::contact::discretization::Anchored;
 use crate::contact::kernel::Past;
+use crate::system::Dof;
 use signorini_geometry::tensor::Vec3;
 
 /// What rows remember: the accepted values, and those that the present increment works with. These stay until the next
@@ -44,6 +45,40 @@ pub(super) struct DynamicGaps {
     pub reached: Vec<Option<f64>>,
     /// When the increment begins.
     pub time: f64,
+}
+
+/// Forces at the ends of increments, sorted by unknowns.
+#[derive(Default)]
+pub(super) struct Ends {
+    /// f₀; none where an increment before was not weighted.
+    pub before: Option<Vec<(Dof, f64)>>,
+    /// f₁ of an iterate that was found.
+    pub reached: Option<Vec<(Dof, f64)>>,
+}
+
+impl Ends {
+    /// The increment has ended.
+    pub fn keep(&mut self) {
+        self.before = self.reached.take();
+    }
+
+    /// f₀ as unknowns and forces in turn.
+    pub fn to_numbers(&self) -> Option<Vec<f64>> {
+        let before = self.before.as_ref()?;
+        let numbers = before.iter().flat_map(|(dof, f)| [f64::from(*dof), *f]);
+        Some(numbers.collect())
+    }
+
+    /// What [`Self::to_numbers`] gave.
+    pub fn from_numbers(numbers: &[f64]) -> Self {
+        let (pairs, _) = numbers.as_chunks();
+        let before = pairs.iter().map(|[dof, force]| (*dof as Dof, *force));
+        let before = before.collect();
+        Self {
+            before: Some(before),
+            reached: None,
+        }
+    }
 }
 
 impl History {

@@ -46,14 +46,13 @@ use asked::Asked;
 use coupled::Coupled;
 use judged::Judged;
 use lents::Lents;
-use memory::{DynamicGaps, History};
+use memory::{DynamicGaps, Ends, History};
 use near::Near;
 use reversals::Reversals;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
-use weighted::Ends;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
 pub struct Interface {

@@ -104,6 +104,8 @@ pub struct InterfaceParts {
     pub allowance: Allowance,
     /// What damps the motion of closed rows, of laws without a multiplier.
     pub damping: Damping,
+    /// Whether no side yields.
+    pub is_rigid: bool,
     /// The velocity of rows that leave an impact over that with which they came, where impulses act.
     pub restitution: f64,
     /// The surfaces that straight facets were cut from, where gaps are measured between these.
@@ -152,6 +154,7 @@ impl InterfaceParts {
                 length: 1.0,
             },
             shifts: Vec::new(),
+            is_rigid: false,
             allowance: Allowance::default(),
             damping: Damping::default(),
             restitution: 0.0,

@@ -52,10 +52,12 @@ impl Term for Interface {
             self.begin_increment(from)?;
             self.begin_ends(from)?;
         }
-        if !phase.step.is_explicit() {
-            return Ok(());
-        }
-        match self.not_explicit() {
+        let refused = match phase.step.scheme {
+            Some(_) if phase.step.is_explicit() => self.not_explicit(),
+            Some(_) => self.not_implicit(),
+            None => None,
+        };
+        match refused {
             Some(message) => Err(TermError::Refused { message }),
             None => Ok(()),
         }

@@ -9,42 +9,9 @@
 //!
 //! Source: Hilber, Hughes and Taylor, EESD 5, 1977, equation (3), of all internal forces.
 
+use super::memory::Ends;
 use super::{Interface, Multiplier, Order, Scratch, Sink, State, TermError};
 use crate::system::{Dof, NO_DOF};
-
-/// Forces at the ends of increments, sorted by unknowns.
-#[derive(Default)]
-pub(super) struct Ends {
-    /// f₀; none where an increment before was not weighted.
-    before: Option<Vec<(Dof, f64)>>,
-    /// f₁ of an iterate that was found.
-    reached: Option<Vec<(Dof, f64)>>,
-}
-
-impl Ends {
-    /// The increment has ended.
-    pub fn keep(&mut self) {
-        self.before = self.reached.take();
-    }
-
-    /// f₀ as unknowns and forces in turn.
-    pub fn to_numbers(&self) -> Option<Vec<f64>> {
-        let before = self.before.as_ref()?;
-        let numbers = before.iter().flat_map(|(dof, f)| [f64::from(*dof), *f]);
-        Some(numbers.collect())
-    }
-
-    /// What [`Self::to_numbers`] gave.
-    pub fn from_numbers(numbers: &[f64]) -> Self {
-        let (pairs, _) = numbers.as_chunks();
-        let before = pairs.iter().map(|[dof, force]| (*dof as Dof, *force));
-        let before = before.collect();
-        Self {
-            before: Some(before),
-            reached: None,
-        }
-    }
-}
 
 /// Takes forces, one after the other.
 struct Forces(Vec<(Dof, f64)>);

@@ -46,8 +46,8 @@ pub(super) struct Steps<'a> {
     /// What multipliers that friction limits may be off by, over themselves.
     pub traction_tol: f64,
     pub parts: &'a [ContactPart],
-    /// Whether all steps are explicit: impulses act between sides that do not yield, too.
-    pub are_explicit: bool,
+    /// Whether all steps are dynamic: multipliers act between sides that do not yield, too.
+    pub are_dynamic: bool,
     /// What each contact becomes where some of its facets take part only in some steps; else itself.
     pub variants: Vec<Vec<Variant>>,
 }
@@ -63,7 +63,7 @@ impl<'a> Steps<'a> {
         let variants = parts.iter().map(|part| variants::variants(part, activity));
         let mut schemes = steps.iter().map(|step| step.scheme);
         Self {
-            are_explicit: schemes.all(|of| of.is_some_and(|of| of.explicit.is_some())),
+            are_dynamic: schemes.all(|of| of.is_some()),
             variants: variants.collect(),
             changes: steps.iter().map(|s| s.contacts.clone()).collect(),
             gap_tol,
@@ -175,7 +175,7 @@ impl Context<'_> {
         let stiffness = sizes.iter().flatten().filter_map(|s| s.stiffness);
         let bare = self.bare(&sides.pair.points, length, sides.secondary().is_none());
         let softest = stiffness.chain(bare).fold(f64::INFINITY, f64::min);
-        let of_sides = (softest, length, steps.are_explicit);
+        let of_sides = (softest, length, steps.are_dynamic);
         let penalty = self.penalty(&sides, part, measure, of_sides)?;
         if part.sliding == SlidingRange::Small || part.tie.is_some() {
             let held = sides.hold(&at, self.spaces, share);
@@ -213,6 +213,7 @@ impl Context<'_> {
             bend,
             allowance: start::allowance(part),
             damping: part.damping,
+            is_rigid: !softest.is_finite(),
             restitution: part.restitution,
             discretization: sides.discretization,
             pair: sides.pair,
@@ -246,7 +247,7 @@ impl Context<'_> {
         sides: &Sides,
         part: &ContactPart,
         measure: Measure,
-        (softest, length, by_impulses): (f64, f64, bool),
+        (softest, length, moves): (f64, f64, bool),
     ) -> Result<f64, ModelError> {
         if let Enforcement::Penalty(Some(given))
         | Enforcement::Uzawa(Some(given))
@@ -254,8 +255,8 @@ impl Context<'_> {
         {
             return Ok(given);
         }
-        if !softest.is_finite() && by_impulses && sides.law.multiplier().is_unknown() {
-            // multipliers are compared with it, and impulses are not
+        if !softest.is_finite() && moves && sides.law.multiplier().is_unknown() {
+            // what multipliers are compared with, gap by gap: any number decides alike
             return Ok(1.0);
         }
         if !softest.is_finite() {
