@@ -2,7 +2,7 @@
 //!
 //! ALPHA is that of Hilber, Hughes and Taylor, −0.05 unless the card says otherwise, between −1/3 and 0. With contact it becomes the
 //! generalized-α method of the same damping of the highest frequencies, `ρ = (1 + α)/(1 − α)`: by ALPHA itself, contact flickers
-//! and may gain energy. Where the laws of CalculiX hold, it stays, and contact forces are weighted as others are.
+//! and may gain energy. Where the laws of CalculiX hold and no contact damps, it stays, and contact forces are weighted as others are.
 
 use super::compat::Compat;
 use super::translation::Translation;
@@ -44,7 +44,9 @@ impl Translation<'_> {
             }
         };
         let has_contact = !self.case.contacts.is_empty() || self.case.general.is_some();
-        let weighted = has_contact && self.compat == Compat::Ccx;
+        // dampers of contacts act by the mean velocity of an increment, which ALPHA does not go with
+        let damps = self.cards("CONTACTDAMPING").next().is_some();
+        let weighted = has_contact && self.compat == Compat::Ccx && !damps;
         let method = if has_contact && !weighted {
             let radius = (1.0 + alpha) / (1.0 - alpha);
             let text = format!(

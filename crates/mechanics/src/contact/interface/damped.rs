@@ -4,7 +4,7 @@
 //! p = p(γ) − c ġ ≥ 0        ġ = b·Δd/h        t = c_t P Bᵀ Δd/h                                  (E11)
 //! ```
 //!
-//! where the law acts; what pulls is cut off unless [`Damping::pulls`]. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the
+//! where the law acts; what pulls is cut off unless [`Damping::pulls`]. Dampers act as a whole where other forces count with those before. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the
 //! gap: exact where sides are flat, or energy is conserved. The shear t resists slip, with friction and without; its tangent is exact.
 
 use super::{Interface, Rows, State, TermError};
@@ -27,13 +27,14 @@ impl Interface {
 
     /// What damps a row whose gap changes by this in the increment.
     pub(super) fn viscous(&self, change: f64) -> Viscous {
+        let share = self.share_of_elastic();
         let of = |damping: Damping| {
-            let slope = damping.normal / self.duration;
+            let slope = damping.normal / (self.duration * share);
             Viscous {
                 pressure: -slope * change,
                 slope,
                 pulls: damping.pulls,
-                drag: damping.tangential / self.duration,
+                drag: damping.tangential / (self.duration * share),
             }
         };
         self.damping().map(of).unwrap_or_default()
@@ -64,6 +65,6 @@ impl Interface {
                 work += self.measure(row) * seen.viscous.drag * slipped;
             }
         }
-        Ok(work)
+        Ok(work * self.share_of_elastic())
     }
 }

@@ -1,11 +1,11 @@
 //! Contact forces that count with those before, as CalculiX has it.
 //!
 //! ```text
-//! f = (1 − αf) f₁ + αf f₀                                                                         (E12)
+//! f = (1 − αf) f₁ + αf f₀ + f_damper                                                              (E12)
 //! ```
 //!
-//! with the force f₁ of what the row has at the end of the increment, (E7) of `carried`, and that of the increment before. Stiff contact flickers
-//! by it, and may gain energy: the force of a row that has just closed is weighted with none.
+//! with the force f₁ of what the row has at the end of the increment, (E7) of `carried`, and that of the increment before, both without
+//! dampers. Stiff contact flickers by it, and may gain energy: the force of a row that has just closed is weighted with none.
 //!
 //! Source: Hilber, Hughes and Taylor, EESD 5, 1977, equation (3), of all internal forces.
 
@@ -49,6 +49,11 @@ impl Interface {
         has_pressure.then_some(scheme.alpha_f)
     }
 
+    /// By what all forces of rows are multiplied, where some count with those before.
+    pub(super) fn share_of_elastic(&self) -> f64 {
+        1.0 - self.share_of_before().unwrap_or_default()
+    }
+
     /// The share of f₁ in the forces of an iterate, where it is not all of them.
     pub(super) fn share_of_end(&self, trial: &State) -> Option<f64> {
         let before = self.share_of_before()?;
@@ -68,7 +73,10 @@ impl Interface {
     /// f₁ of an iterate that was found.
     pub(super) fn reach_ends(&mut self, trial: &State) -> Result<(), TermError> {
         if let Some(share) = self.share_of_end(trial) {
-            let mut forces = self.forces(trial)?;
+            let duration = std::mem::take(&mut self.duration);
+            let forces = self.forces(trial);
+            self.duration = duration;
+            let mut forces = forces?;
             forces.iter_mut().for_each(|(_, force)| *force /= share);
             self.ends.reached = Some(forces);
         }
