@@ -561,7 +561,7 @@ class Contact(Table):
         default="auto",
     )
     restitution: Key[float, float] = Key(
-        "The velocity with which points leave an impact, over that with which they came: of multipliers, in explicit steps",
+        "The velocity with which points leave an impact, over that with which they came: of multipliers, between rigid sides, and in explicit steps",
         "number ≥ 0.0, ≤ 1.0",
         default=0.0,
     )
