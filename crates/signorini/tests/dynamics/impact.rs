@@ -18,11 +18,9 @@ pub fn blocks(ndim: usize, nonlinear: bool, contact: &str) -> String {
     };
     let lower = format!("{{ on = \"lower\", v = [0, 0.5{}] }}", z("0"));
     let upper = format!("{{ on = \"upper\", v = [0.3, -1.0{}] }}", z("0.2"));
-    apart(ndim, nonlinear, contact, 0.02)
-        + &format!(
-            "duration = 0.6\nincrements = {{ fixed = 60 }}\n\
-             [initial]\nvelocity = [{lower}, {upper}]\n"
-        )
+    let initial = format!("[initial]\nvelocity = [{lower}, {upper}]\n[[step]]");
+    apart(ndim, nonlinear, contact, 0.02).replacen("[[step]]", &initial, 1)
+        + "duration = 0.6\nincrements = { fixed = 60 }\n"
 }
 
 /// Two blocks with a gap between them, in a step without a duration.
