@@ -13,7 +13,7 @@
 //! Sources: Carpenter, Taylor and Katona, Int. J. Numer. Meth. Eng. 32, 1991; Jean, CMAME 177, 1999 (row after row).
 
 use super::bodies::Bodies;
-use crate::system::{Acts, Dof, Impulsive, NO_DOF, NearRow, State, System, TermError};
+use crate::system::{Acts, Dof, NO_DOF, NearRow, State, System, TermError};
 use signorini_geometry::tensor::Vec3;
 
 /// Rounds over all rows, and the change of a velocity over the largest one at which they end.
@@ -73,7 +73,8 @@ impl Impulses {
     ) -> Result<(), TermError> {
         self.rows.clear();
         self.columns.clear();
-        if contacts(system).next().is_none() {
+        let mut contacts = system.impulsive().filter(|(_, of)| of.is_hard()).peekable();
+        if contacts.peek().is_none() {
             return Ok(());
         }
         let compliances: Vec<[[f64; 6]; 6]> = bodies
@@ -86,7 +87,7 @@ impl Impulses {
             bodies,
             compliances: &compliances,
         };
-        for (term, contact) in contacts(system) {
+        for (term, contact) in contacts {
             contact.near_rows(state, reach, &mut |row| {
                 self.push((term, row), system, state, &answers);
             })?;
@@ -190,9 +191,7 @@ impl Impulses {
                 false => closes,
             };
         }
-        let fastest = rates
-            .iter()
-            .fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let fastest = system.fastest(rates);
         for _ in 0..ROUNDS {
             let mut changed = 0.0_f64;
             for row in &mut *rows {
@@ -259,24 +258,14 @@ impl Impulses {
     }
 }
 
-/// The contacts that act by impulses, with their places among the terms.
-fn contacts(system: &System) -> impl Iterator<Item = (usize, &dyn Impulsive)> {
-    let terms = system.terms.iter().enumerate();
-    let impulsive = terms.filter_map(|(at, term)| Some((at, term.capabilities().impulsive?)));
-    impulsive.filter(|(_, contact)| contact.is_hard())
-}
-
 impl Row {
     /// The largest impulse of friction. Pressures are impulses over time and measure.
     fn most(&self, system: &System, time: f64) -> f64 {
         if self.impulse <= 0.0 {
             return 0.0;
         }
-        let (term, number) = self.of;
-        let contact = system.terms.get(term).map(|term| term.capabilities());
         let over = time * self.measure;
-        let limit = contact.and_then(|of| of.impulsive);
-        limit.map_or(0.0, |of| of.limit(number, self.impulse / over) * over)
+        system.friction_limit(self.of, self.impulse / over) * over
     }
 }
 

@@ -475,9 +475,3 @@ fn put(values: &mut [f64], dof: Dof, value: f64) {
         *to = value;
     }
 }
-
-/// The largest speed of a node or a body.
-pub fn fastest(layout: &Layout, rates: &[f64]) -> f64 {
-    let motions = rates.iter().take(layout.nmotion());
-    motions.fold(0.0, |most: f64, rate| most.max(rate.abs()))
-}

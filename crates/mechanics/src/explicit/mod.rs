@@ -21,7 +21,7 @@ use crate::system::{Archive, ArchiveError, Dof, Leapfrog, Rates, State, System, 
 use bodies::Bodies;
 pub use bodies::Past;
 use impulses::Impulses;
-use longest::{Bound, Initial, fastest};
+use longest::{Bound, Initial};
 use masses::Masses;
 use signorini_geometry::tensor::Vec3;
 
@@ -248,7 +248,7 @@ impl Explicit {
         prescribed: &[bool],
         whole: f64,
     ) -> Result<(), TermError> {
-        let speed = fastest(&system.layout, &self.velocity);
+        let speed = system.fastest(&self.velocity);
         let before = match self.longest > 0.0 {
             true => self.longest,
             false => whole,
@@ -383,7 +383,7 @@ impl Explicit {
         past: Past,
     ) -> Result<(), TermError> {
         self.settle(state, residual, past);
-        let reach = REACH * past.next * fastest(&system.layout, &self.foreseen);
+        let reach = REACH * past.next * system.fastest(&self.foreseen);
         let inverse = &self.masses.inverse;
         self.impulses
             .take_up(system, state, inverse, &self.bodies, reach)?;

@@ -13,7 +13,7 @@
 
 use super::at::At;
 use crate::material::{Linearity, Material, MaterialError, Order, Response, Strain};
-use crate::system::{Archive, ArchiveError, Lifetime, NodeId, Phase, Rates, Scheme, State};
+use crate::system::{Archive, ArchiveError, Layout, Lifetime, NodeId, Phase, Scheme, State};
 use signorini_geometry::tensor::{Sym3, Vec3};
 
 /// The law `b ℂ₀:Ė`, which takes rates for strains.
@@ -224,18 +224,20 @@ impl Damping {
 pub(super) fn since<'a>(
     flow: &'a Flow,
     from: &'a State,
-    rates: Option<&'a Rates>,
+    layout: &'a Layout,
     nodes: &'a [NodeId],
-    dofs: impl Fn(NodeId) -> std::ops::Range<u32> + 'a,
 ) -> impl Iterator<Item = Since> + 'a {
+    let rates = from.rates.as_ref();
     nodes.iter().flat_map(move |&node| {
         let at = |values: &[Vec3]| values.get(node as usize).copied().unwrap_or_default();
         let rates = rates.map(|rates| [at(&rates.velocity), at(&rates.acceleration)]);
         let [velocity, acceleration] = rates.unwrap_or_default();
         let rest = flow.rest(velocity, acceleration).to_array();
-        dofs(node).zip(rest).map(|(dof, rest)| Since {
-            u: from.u.get(dof as usize).copied().unwrap_or_default(),
-            rest,
-        })
+        let of_axis = move |(axis, rest)| {
+            let dof = layout.node(node, axis) as usize;
+            let u = from.u.get(dof).copied().unwrap_or_default();
+            Since { u, rest }
+        };
+        (0..layout.ndim()).zip(rest).map(of_axis)
     })
 }

@@ -21,12 +21,10 @@ impl Solid {
     /// An increment begins, or a step.
     pub(super) fn begin_damping(&mut self, phase: &Phase, from: &State) {
         let flow = self.damping.begin(phase);
-        let (layout, rates) = (self.layout, from.rates.as_ref());
-        let dofs = |node| layout.node(node, 0)..layout.node(node, 0) + layout.ndim() as u32;
         for block in &mut self.blocks {
             block.since.clear();
             if let Some(flow) = &flow {
-                let all = since(flow, from, rates, &block.nodes, dofs);
+                let all = since(flow, from, &self.layout, &block.nodes);
                 block.since.extend(all);
             }
         }
@@ -186,12 +184,11 @@ impl Truss {
     /// An increment begins, or a step.
     pub(super) fn begin_damping(&mut self, phase: &Phase, from: &State) {
         let flow = self.damping.begin(phase);
-        let (layout, rates) = (self.layout, from.rates.as_ref());
-        let dofs = |node| layout.node(node, 0)..layout.node(node, 0) + layout.ndim() as u32;
         for bar in &mut self.bars {
             bar.since.clear();
             if let Some(flow) = &flow {
-                bar.since.extend(since(flow, from, rates, &bar.nodes, dofs));
+                bar.since
+                    .extend(since(flow, from, &self.layout, &bar.nodes));
             }
         }
     }

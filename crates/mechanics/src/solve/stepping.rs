@@ -9,7 +9,7 @@ use super::step::{Increments, Motion, Sizes, Step};
 use super::work::ExternalWork;
 use crate::explicit::{Explicit, Kept};
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, Impulsive, Order, State, System, TermError, interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, Order, State, System, TermError, interpolate,
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
@@ -598,11 +598,7 @@ impl Stepper {
         self.progress.rate.extend(rate);
         self.progress.jumped = false;
         self.progress.curvature = converged.curvature;
-        let mut contacts = system.terms.iter();
-        let bounces = contacts.any(|term| {
-            let contact = term.capabilities().impulsive;
-            contact.is_some_and(Impulsive::bounces)
-        });
+        let bounces = system.impulsive().any(|(_, contact)| contact.bounces());
         let has_inertia = self.newton.step.scheme.is_some();
         let before = (bounces && has_inertia).then(|| system.rates_of_unknowns(&self.state));
         self.accept(system)?;

@@ -7,12 +7,17 @@ use signorini_geometry::tensor::Vec3;
 const SOON: f64 = 1e-6;
 
 impl System {
+    /// The largest of the rates of unknowns that are motions.
+    pub(crate) fn fastest(&self, rates: &[f64]) -> f64 {
+        let motions = rates.iter().take(self.layout.nmotion());
+        motions.fold(0.0, |most: f64, rate| most.max(rate.abs()))
+    }
+
     /// How the nodes move at a state where unknowns change at these rates. Of nodes that follow others it is a difference
     /// over a small time, good to ten digits of the largest rate.
     pub(crate) fn nodal_rates(&self, state: &State, rates: &[f64]) -> Vec<Vec3> {
         let layout = &self.layout;
-        let motions = rates.iter().take(layout.nmotion());
-        let fastest = motions.fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let fastest = self.fastest(rates);
         let mut moved = state.clone();
         let time = if fastest > 0.0 { SOON / fastest } else { 0.0 };
         self.advance(&mut moved, state, rates, time);

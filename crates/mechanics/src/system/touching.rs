@@ -67,15 +67,15 @@ pub(crate) fn touching(
     takes: fn(&dyn Impulsive) -> bool,
 ) -> Result<Vec<Touching>, TermError> {
     let mut rows = Vec::new();
-    let contacts = system.terms.iter().enumerate();
-    let mut rates = None;
-    for (term, of) in contacts {
-        let Some(contact) = of.capabilities().impulsive.filter(|of| takes(*of)) else {
-            continue;
-        };
-        let rates = rates.get_or_insert_with(|| system.rates_of_unknowns(state));
+    let mut contacts = system.impulsive().filter(|(_, of)| takes(*of)).peekable();
+    if contacts.peek().is_none() {
+        return Ok(rows);
+    }
+    let rates = system.rates_of_unknowns(state);
+    let nothing = NOTHING * system.fastest(&rates);
+    for (term, contact) in contacts {
         contact.near_rows(state, reach, &mut |row| {
-            rows.extend(Touching::of(row, term, (system, state), rates));
+            rows.extend(Touching::of(row, term, (system, state), (&rates, nothing)));
         })?;
     }
     Ok(rows)
@@ -98,8 +98,7 @@ pub(crate) fn choose_again(
         row.traction = row.normal_and_shear(before, changes);
         pressed = pressed.max(row.traction.0.abs());
     }
-    let rates = changes.iter().take(system.layout.nmotion());
-    let fastest = rates.fold(0.0, |most: f64, a| most.max(a.abs()));
+    let fastest = system.fastest(changes);
     let mut changed = false;
     for row in rows {
         let acts = match row.acts {
@@ -121,7 +120,7 @@ impl Touching {
         row: &NearRow<'_>,
         term: usize,
         (system, state): (&System, &State),
-        rates: &[f64],
+        (rates, nothing): (&[f64], f64),
     ) -> Option<Self> {
         let Acts::Hard {
             multiplier,
@@ -152,10 +151,6 @@ impl Touching {
             slip - row.normal * row.normal.dot(slip)
         });
         let slip = slip.unwrap_or_default();
-        let fastest = rates
-            .iter()
-            .fold(0.0, |most: f64, rate| most.max(rate.abs()));
-        let nothing = NOTHING * fastest;
         let speed = slip.norm();
         let mut touching = Self {
             columns,
@@ -292,18 +287,14 @@ impl Touching {
 
     /// Whether what is pressed together sticks, or slips where its shear is beyond the limit.
     fn sticks(&self, system: &System) -> How {
-        let Some((term, row)) = self.rubs else {
+        let Some(rubs) = self.rubs else {
             return How::Closed;
         };
         if let Some(along) = self.slides {
             return How::Slips(along);
         }
         let (pressure, shear) = self.traction;
-        let contact = system.terms.get(term).map(|term| term.capabilities());
-        let contact = contact.and_then(|of| of.impulsive);
-        let limit = contact.map_or(f64::INFINITY, |of| {
-            of.limit(row, (pressure + self.pressed).max(0.0))
-        });
+        let limit = system.friction_limit(rubs, (pressure + self.pressed).max(0.0));
         let size = shear.norm();
         match size > limit * (1.0 + NOTHING) && size > 0.0 {
             true => How::Slips(shear / size),

@@ -1,8 +1,8 @@
 use super::internal_forces::internal_forces;
 use super::{
     Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, Elimination,
-    FieldId, Frame, FreeMotion, Layout, NodalValues, Rates, RigidMass, Role, Samples, State, Term,
-    TermError, Wanted, Work,
+    FieldId, Frame, FreeMotion, Impulsive, Layout, NodalValues, Rates, RigidMass, Role, Samples,
+    State, Term, TermError, Wanted, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, NodeId};
@@ -58,7 +58,21 @@ impl System {
         terms.filter_map(|term| term.capabilities().choices)
     }
 
-    /// The same, to be changed.
+    /// The contacts as steps with inertia see them, with their places among the terms.
+    pub fn impulsive(&self) -> impl Iterator<Item = (usize, &dyn Impulsive)> {
+        let terms = self.terms.iter().enumerate();
+        terms.filter_map(|(place, term)| Some((place, term.capabilities().impulsive?)))
+    }
+
+    /// The largest shear of a row of one of these at a pressure; 0 where nothing rubs.
+    #[must_use]
+    pub fn friction_limit(&self, (place, row): (usize, usize), pressure: f64) -> f64 {
+        let term = self.terms.get(place);
+        let contact = term.and_then(|term| term.capabilities().impulsive);
+        contact.map_or(0.0, |contact| contact.limit(row, pressure))
+    }
+
+    /// The terms that make discrete choices, to be changed.
     pub fn choices_mut(&mut self) -> impl Iterator<Item = &mut dyn Choices> {
         let terms = self.terms.iter_mut();
         terms.filter_map(|term| term.adaptive()?.choices())

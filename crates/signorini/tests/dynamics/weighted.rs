@@ -9,7 +9,7 @@ fn recursion(bar: &Bar, alpha: f64, k: f64) -> Vec<[f64; 2]> {
     let n = bar.elements + 1;
     let (l, h, share) = (LENGTH / bar.elements as f64, bar.h(), 1.0 + alpha);
     let (beta, gamma) = (0.25 * (1.0 - alpha) * (1.0 - alpha), 0.5 - alpha);
-    // consistent mass and stiffness of neighbours: on the diagonal, and beside it
+    // consistent mass and stiffness of neighbours: the entries on the diagonal, and off it
     let [mass, stiffness] = [[l / 3.0, l / 6.0], [900.0 / l, -900.0 / l]];
     let times = |of: [f64; 2], v: &[f64]| -> Vec<f64> {
         let row = |i: usize| {

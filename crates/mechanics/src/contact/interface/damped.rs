@@ -4,8 +4,9 @@
 //! p = p(γ) − c ġ ≥ 0        ġ = b·Δd/h        t = c_t P Bᵀ Δd/h                                  (E11)
 //! ```
 //!
-//! where the law acts; what pulls is cut off unless [`Damping::pulls`]. Dampers act as a whole where other forces count with those before. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the
+//! where the law acts; what pulls is cut off unless [`Damping::pulls`]. The tangent takes ∂ġ/∂d = q/h, with the gradient q of the
 //! gap: exact where sides are flat, or energy is conserved. The shear t resists slip, with friction and without; its tangent is exact.
+//! Dampers act as a whole where other forces count with those before.
 
 use super::{Interface, Rows, State, TermError};
 use crate::contact::law::{Damping, Eval, Multiplier};

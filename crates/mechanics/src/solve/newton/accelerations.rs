@@ -7,8 +7,8 @@
 //!
 //! What meets is stopped first, (E2): by forces it would take a first increment, and all that it sets off.
 //!
-//! Sides that do not yield are stopped where gaps are, within an increment, and would leave with what is left of it. So they get their
-//! velocities by impulses at its end, of all rows whose multipliers press,
+//! Rigid sides close their gaps within an increment, and would leave each other with a velocity that depends on where in it they met. So
+//! their velocities follow from impulses at its end, of all rows whose multipliers press,
 //!
 //! ```text
 //! b·v = −e min(0, b·v₀)        with the coefficient of restitution e, and v₀ at the start of the increment      (E3)
@@ -69,10 +69,7 @@ impl Newton {
         rows.iter_mut()
             .for_each(|row| row.rebound(&state.u, before, h));
         rows.retain(Touching::is_pressed);
-        let fastest = before
-            .iter()
-            .fold(0.0, |most: f64, rate| most.max(rate.abs()));
-        let slow = RESTS * fastest.max(self.extent / h);
+        let slow = RESTS * system.fastest(before).max(self.extent / h);
         let is_at_rest = |row: &Touching| row.lacks.abs() <= slow;
         if rows.iter().all(is_at_rest) {
             return Ok(());
