@@ -12,8 +12,8 @@ const NOTHING: f64 = 1e-9;
 /// A multiplier that no law takes for contact.
 const PULLS: f64 = -1e100;
 
-/// The trial of what slips over the limit of friction: so large that its direction stays.
-const BEYOND: f64 = 1e6;
+/// The trial of what slips over its pressure: beyond the limit of friction, and no larger, for it turns with the normals of sides.
+const BEYOND: f64 = 10.0;
 
 /// What masses answer to.
 #[derive(Clone, Copy, PartialEq)]
@@ -180,6 +180,13 @@ impl Touching {
     /// Whether its sides are pressed together.
     pub fn is_pressed(&self) -> bool {
         !matches!(self.acts, How::Parts | How::Open)
+    }
+
+    /// Whether it has friction on sides that yield: their normals turn with unknowns, which impulses do not go with.
+    pub fn rubs_on_what_yields(&self, system: &System) -> bool {
+        let contact = |place: usize| system.terms.get(place)?.capabilities().impulsive;
+        let of = self.rubs.and_then(|(place, _)| contact(place));
+        of.is_some_and(|contact| !contact.bounces())
     }
 
     /// The places of its multipliers.

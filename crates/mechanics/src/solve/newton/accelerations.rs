@@ -47,7 +47,8 @@ impl Newton {
         self.prepare(system, Order::Tangent)?;
         (self.assembled, self.has_tangent) = (None, false);
         let mut rows = touching(system, state, TOUCH * self.extent, |of| of.is_hard())?;
-        if rows.iter().any(|row| row.lacks > 0.0) {
+        let yields = |row: &Touching| row.rubs_on_what_yields(system);
+        if rows.iter().any(|row| row.lacks > 0.0) && !rows.iter().any(yields) {
             self.strike(system, state, &mut rows)?;
             rows = touching(system, state, TOUCH * self.extent, |of| of.is_hard())?;
         }
