@@ -17,7 +17,9 @@
 //! Both patterns keep compressed rows with sorted columns and both halves of a symmetric matrix, so that a row can be
 //! multiplied, searched and filled on its own. A pattern is built from *cliques*: lists of nodes (or dofs) that all
 //! couple with each other, one per element or contact row, flat, with offsets: clique `c` is
-//! `members[offsets[c]..offsets[c + 1]]`. A row has a diagonal entry only where it occurs in a clique.
+//! `members[offsets[c]..offsets[c + 1]]`. A clique of the interface may be *split*: its first members couple with the others
+//! alone, as those of one field do with those of another. A row has a diagonal entry only where it occurs in a clique that is
+//! not split.
 
 use crate::lists::Lists;
 use rayon::prelude::*;
@@ -57,7 +59,7 @@ impl BlockPattern {
 
     /// The pattern in which all nodes of a clique couple; members that are not below `nrow` are left out.
     pub fn from_cliques(nrow: usize, block: usize, nodes: &[u32], offsets: &[usize]) -> Self {
-        let (row_start, column) = rows_from_cliques(nrow, nodes, offsets);
+        let (row_start, column) = rows_from_cliques(nrow, nodes, offsets, &[]);
         Self {
             block,
             row_start: row_start.into(),
@@ -124,7 +126,27 @@ impl Pattern {
 
     /// The pattern in which all members of a clique couple; members that are not below `nrow` are left out.
     pub fn from_cliques(nrow: usize, dofs: &[u32], offsets: &[usize]) -> Self {
-        let (row_start, column) = rows_from_cliques(nrow, dofs, offsets);
+        Self::from_split_cliques(nrow, dofs, offsets, &[])
+    }
+
+    /// The same where the first `splits[c]` members of a clique couple with its other members alone, and these with them; all
+    /// members couple where that is 0 or not given.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_linear::sparsity::Pattern;
+    ///
+    /// // 0 and 1 couple with 2
+    /// let pattern = Pattern::from_split_cliques(3, &[0, 1, 2], &[0, 3], &[2]);
+    /// assert_eq!(*pattern.column, [2, 2, 0, 1]);
+    /// ```
+    pub fn from_split_cliques(
+        nrow: usize,
+        dofs: &[u32],
+        offsets: &[usize],
+        splits: &[usize],
+    ) -> Self {
+        let (row_start, column) = rows_from_cliques(nrow, dofs, offsets, splits);
         Self {
             nrow,
             row_start: row_start.into(),
@@ -167,8 +189,25 @@ fn position(row_start: &[usize], columns: &[u32], row: u32, column: u32) -> Opti
     row_start.get(row as usize).map(|begin| begin + at)
 }
 
-/// Compressed rows from cliques: each row is the sorted union of the cliques that the row occurs in.
-fn rows_from_cliques(nrow: usize, members: &[u32], offsets: &[usize]) -> (Vec<usize>, Vec<u32>) {
+/// What a member of a clique couples with: all of it, or of one that is split the part that it is not in.
+fn coupled(clique: &[u32], split: usize, row: u32) -> [&[u32]; 2] {
+    let (first, others) = clique.split_at(split.min(clique.len()));
+    match split {
+        0 => [clique, &[]],
+        _ => [
+            if others.contains(&row) { first } else { &[] },
+            if first.contains(&row) { others } else { &[] },
+        ],
+    }
+}
+
+/// Compressed rows from cliques: each row is the sorted union of what the row couples with in the cliques that it occurs in.
+fn rows_from_cliques(
+    nrow: usize,
+    members: &[u32],
+    offsets: &[usize],
+    splits: &[usize],
+) -> (Vec<usize>, Vec<u32>) {
     let cliques = || {
         offsets
             .windows(2)
@@ -197,7 +236,9 @@ fn rows_from_cliques(nrow: usize, members: &[u32], offsets: &[usize]) -> (Vec<us
                     let begin = column.len();
                     for &clique in cliques_of.of(row) {
                         let ends = offsets[clique as usize]..offsets[clique as usize + 1];
-                        for &other in &members[ends] {
+                        let split = splits.get(clique as usize).copied().unwrap_or_default();
+                        let others = coupled(&members[ends], split, row as u32);
+                        for &other in others.into_iter().flatten() {
                             if (other as usize) < nrow && seen[other as usize] != row as u32 {
                                 seen[other as usize] = row as u32;
                                 column.push(other);
@@ -304,6 +345,29 @@ mod tests {
             }
         }
         assert_eq!(found, pattern.nentry());
+    }
+
+    #[test]
+    fn split_cliques_give_exactly_the_pairs_across() {
+        let nrow = 60;
+        let (members, offsets) = random_cliques(nrow, 80, 5);
+        let splits: Vec<usize> = (0..80).map(|clique| clique % 4).collect();
+        let pattern = Pattern::from_split_cliques(nrow as usize, &members, &offsets, &splits);
+        let mut wanted = vec![vec![false; nrow as usize]; nrow as usize];
+        for (ends, &split) in offsets.windows(2).zip(&splits) {
+            let clique = &members[ends[0]..ends[1]];
+            for (i, &row) in clique.iter().enumerate() {
+                for (j, &column) in clique.iter().enumerate() {
+                    wanted[row as usize][column as usize] |=
+                        split == 0 || (i < split) != (j < split);
+                }
+            }
+        }
+        for (row, wanted) in wanted.iter().enumerate() {
+            let (_, columns) = pattern.row(row as u32);
+            let wanted = (0..nrow).filter(|&column| wanted[column as usize]);
+            assert!(wanted.eq(columns.iter().copied()));
+        }
     }
 
     #[test]

@@ -135,10 +135,12 @@ fn pressed(facets: f64, element: &str, sliding: SlidingRange) -> ContactFrame {
         scheme: None,
         control: None,
         vibration: None,
+        physics: signorini_mechanics::system::Physics::default(),
         changes,
         loads: vec![load],
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        freed_temperatures: Vec::new(),
         activity: Vec::new(),
     };
     let parts = Parts {

@@ -257,6 +257,7 @@ impl Solution {
                 at_nodes: Default::default(),
                 initial: Vec::new(),
                 axes: None,
+                heat: None,
             },
         };
         let (secondary, primary) = if way == Way::Swapped { (0, 1) } else { (1, 0) };
@@ -280,6 +281,7 @@ impl Solution {
                 scheme: None,
                 control: None,
                 vibration: None,
+                physics: signorini_mechanics::system::Physics::default(),
                 changes,
                 loads: vec![LoadPart {
                     name: "pressure".into(),
@@ -288,6 +290,7 @@ impl Solution {
                 }],
                 contacts: Vec::new(),
                 temperatures: Vec::new(),
+                freed_temperatures: Vec::new(),
                 activity: Vec::new(),
             }],
             ..Parts::new(&self.mesh, self.space)

@@ -114,6 +114,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 at_nodes: Default::default(),
                 initial: Vec::new(),
                 axes: None,
+                heat: None,
             },
         }],
         steps: vec![StepPart {
@@ -129,6 +130,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             scheme: None,
             control: None,
             vibration: None,
+            physics: signorini_mechanics::system::Physics::default(),
             changes,
             loads: vec![LoadPart {
                 name: "shear".into(),
@@ -138,6 +140,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             }],
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }],
         ..Parts::new(&grid.mesh, space)

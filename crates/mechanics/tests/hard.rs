@@ -174,10 +174,12 @@ fn steps(s: &Situation, mesh: &Mesh, low: &Part, high: &Part) -> Vec<StepPart> {
         scheme: None,
         control: None,
         vibration: None,
+        physics: signorini_mechanics::system::Physics::default(),
         changes,
         loads,
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        freed_temperatures: Vec::new(),
         activity: Vec::new(),
     };
     let mut steps = vec![step("press", changes, loads, s.increments)];

@@ -177,6 +177,7 @@ fn model_of(s: &Situation) -> Model {
             scheme: None,
             control: None,
             vibration: None,
+            physics: signorini_mechanics::system::Physics::default(),
             changes,
             loads: vec![LoadPart {
                 name: "weight".into(),
@@ -185,6 +186,7 @@ fn model_of(s: &Situation) -> Model {
             }],
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)

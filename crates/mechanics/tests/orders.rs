@@ -175,6 +175,7 @@ fn solution(
                 at_nodes: Default::default(),
                 initial: Vec::new(),
                 axes: None,
+                heat: None,
             },
         }],
         steps: vec![StepPart {
@@ -185,6 +186,7 @@ fn solution(
             scheme: None,
             control: None,
             vibration: None,
+            physics: signorini_mechanics::system::Physics::default(),
             changes: boundary.iter().map(prescribe).collect(),
             loads: vec![LoadPart {
                 name: "body force".into(),
@@ -193,6 +195,7 @@ fn solution(
             }],
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }],
         ..Parts::new(mesh, field.space)

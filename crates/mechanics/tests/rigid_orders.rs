@@ -184,10 +184,12 @@ impl Block {
                 scheme: None,
                 control: None,
                 vibration: None,
+                physics: signorini_mechanics::system::Physics::default(),
                 changes,
                 loads,
                 contacts: Vec::new(),
                 temperatures: Vec::new(),
+                freed_temperatures: Vec::new(),
                 activity: Vec::new(),
             }],
             ..Parts::new(&grid.mesh, space)

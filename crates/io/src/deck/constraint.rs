@@ -213,6 +213,7 @@ impl Translation<'_> {
             area: None,
             small_strain: false,
             mass_matrix: Default::default(),
+            lumped_capacity: false,
             rigid: true,
             reference: Some(reference),
             place: place.clone(),

@@ -369,6 +369,7 @@ fn case_of(of: Properties) -> Option<Material> {
         density: of.density,
         damping: MaterialDamping::default(),
         expansion: of.expansion,
+        heat: None,
         plasticity: of.plasticity,
         place: of.place,
     })

@@ -41,6 +41,7 @@ impl Section<'_> {
             area: None,
             small_strain: false,
             mass_matrix: Default::default(),
+            lumped_capacity: false,
             rigid: false,
             reference: None,
             place: place.clone(),

@@ -248,6 +248,7 @@ impl Translation<'_> {
                 on,
                 u,
                 rot,
+                temperature: false,
             });
         }
     }
@@ -448,6 +449,7 @@ impl Translation<'_> {
                 on,
                 u,
                 rot,
+                temperature: false,
                 place: place.clone(),
             });
         }

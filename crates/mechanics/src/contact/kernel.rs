@@ -1,5 +1,9 @@
 //! From rows to force and stiffness: (E1) to (E6) of the room. It never asks what the segment is.
 
+mod heat;
+
+pub(super) use heat::Slopes;
+
 use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
 use super::law::{ContactLaw, Eval, Multiplier, Scale, secant};
 use super::row::{Row, SeenGap, Viscous};

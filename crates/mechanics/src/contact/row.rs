@@ -189,6 +189,22 @@ impl Sliding {
         Some((column % 3, line))
     }
 
+    /// Adds the derivatives of the number that the operator is for the participant whose columns begin at this one, one for each
+    /// column.
+    pub fn dnumber(&self, first: usize, out: &mut Vec<f64>) {
+        let begin = out.len();
+        match self.scaled(first) {
+            Some((_, line)) => out.extend_from_slice(line),
+            None => out.resize(begin + self.operator.len(), 0.0),
+        }
+        for turn in self.turns() {
+            let across = turn.across.get(first).map_or(0.0, |across| across.x);
+            let to = out.iter_mut().skip(begin);
+            to.zip(&turn.along)
+                .for_each(|(to, along)| *to += across * along);
+        }
+    }
+
     /// Multiplies the derivatives of normals and operators.
     pub fn scale_derivatives(&mut self, factor: f64) {
         self.dnormal.iter_mut().for_each(|d| *d *= factor);

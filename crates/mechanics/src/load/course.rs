@@ -265,6 +265,7 @@ mod tests {
             nonlinear: true,
             scheme: None,
             vibrates: false,
+            physics: crate::system::Physics::default(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! What acts, and where.
 
-use super::{Region, Schedule};
+use super::{RadiationConstants, Region, Schedule};
 use crate::system::{Layout, Term};
 use signorini_geometry::mesh::{CellId, Face, NodeId};
 use signorini_geometry::surface::RigidId;
@@ -51,6 +51,8 @@ pub struct LoadProperties {
     pub quantity: &'static str,
     /// The part of it that can act on a body of revolution, in words, where that is not all of it.
     pub off_axis: Option<&'static str>,
+    /// Whether it is heat, not force.
+    pub is_heat: bool,
 }
 
 impl LoadProperties {
@@ -61,6 +63,16 @@ impl LoadProperties {
             domain,
             quantity,
             off_axis: None,
+            is_heat: false,
+        }
+    }
+
+    /// Those of heat.
+    #[must_use]
+    pub const fn of_heat(domain: Domain, quantity: &'static str) -> Self {
+        Self {
+            is_heat: true,
+            ..Self::new(domain, quantity)
         }
     }
 }
@@ -153,6 +165,8 @@ pub struct Site<'a> {
     pub schedule: Schedule,
     /// The unknowns.
     pub layout: Layout,
+    /// The constants of radiation, where they are known.
+    pub radiation: Option<RadiationConstants>,
     /// Positions of all nodes at the start.
     pub reference: &'a Arc<[Vec3]>,
 }
@@ -161,6 +175,8 @@ pub struct Site<'a> {
 pub enum Effect {
     /// Forces on nodes that keep direction and size, in the order in which they are added up.
     Forces(Vec<(NodeId, Vec3)>),
+    /// Heat per time into nodes, whatever the state.
+    Heats(Vec<(NodeId, f64)>),
     /// Forces that go by the state.
     Term(Box<dyn Term>),
 }
@@ -249,6 +265,12 @@ pub enum LoadError {
     /// A load by mass on a rigid body that has none.
     #[error("what it acts on has no mass")]
     Massless,
+    /// Radiation where its constants are not known.
+    #[error("the constants of radiation are not known")]
+    NoConstants,
+    /// Heat in a model in which no temperature is unknown.
+    #[error("no step solves for temperatures")]
+    NoTemperatures,
     /// A moment on nodes that cannot carry it.
     #[error("its nodes lie in a point, or on a line about which the moment turns")]
     NoArm,

@@ -22,6 +22,8 @@
 //! f_i  = (J⁻¹ M) × r_i,   J = Σ (r²I − r rᵀ)                   (E6)   a moment on nodes, r from their centre
 //! M_IJ = ∫ ρ N_I N_J dV                                        (E7)   for inertia, [`mass`]
 //! m_I  = M_II Σ_JK M_JK / Σ_J M_JJ                             (E8)   the same at nodes: never negative
+//! R_I  = φ ∫ N_I q(θ) |t1 × t2| dξ                             (E9)   heat out of the faces, present ones where bodies deform
+//! ∂|t1 × t2| = n·(∂t1 × t2 + t1 × ∂t2)                         (E10)  with n the unit normal
 //! ```
 //!
 //! Nodes of rigid bodies are loaded as others are: the system hands the forces on, with their moments.
@@ -46,6 +48,9 @@
 //! | [`BodyForce`] | cells, by volume |
 //! | [`Gravity`] | cells, by mass; carriers with a mass, and masses at nodes |
 //! | [`Spin`] | cells, by mass |
+//! | [`HeatFlux`], [`Film`], [`Radiation`] | faces |
+//! | [`HeatPower`] | faces, nodes |
+//! | [`HeatSource`] | cells, by volume |
 //!
 //! To add a load: a file that implements [`Load`] and describes its keys in an `ENTRY`, a line above and in [`TABLE`]. A
 //! dead one needs no term but a function of [`spread`]. Cases can name it then.
@@ -53,9 +58,11 @@
 mod body_force;
 mod centrifugal;
 mod course;
+mod exchange;
 mod following_pressure;
 mod force;
 mod gravity;
+mod heat;
 mod kind;
 mod local;
 pub mod mass;
@@ -77,6 +84,7 @@ pub use course::{Course, Schedule};
 pub use following_pressure::FollowingPressure;
 pub use force::{Force, Wrench};
 pub use gravity::Gravity;
+pub use heat::{Film, HeatFlux, HeatPower, HeatSource, Radiation, RadiationConstants};
 pub use kind::{Acting, Domain, Effect, Load, LoadError, LoadProperties, Place, Site};
 pub use moment::Moment;
 pub use nodal_forces::NodalForces;
@@ -91,7 +99,7 @@ use signorini_vocabulary::{Description, Entry};
 use std::sync::Arc;
 
 /// The loads that a case may choose by name.
-pub static TABLE: [Entry<Arc<dyn Load>>; 8] = [
+pub static TABLE: [Entry<Arc<dyn Load>>; 13] = [
     force::ENTRY,
     per_node::ENTRY,
     traction::ENTRY,
@@ -100,6 +108,11 @@ pub static TABLE: [Entry<Arc<dyn Load>>; 8] = [
     body_force::ENTRY,
     gravity::ENTRY,
     centrifugal::ENTRY,
+    heat::FLUX,
+    heat::POWER,
+    heat::SOURCE,
+    heat::FILM,
+    heat::RADIATION,
 ];
 
 /// The names and keys of all loads of [`TABLE`].

@@ -1,6 +1,7 @@
 use super::{
     Constants, ConstantsError, Lame, Linearity, Material, MaterialError, Order, Response, Strain,
 };
+use signorini_geometry::tensor::Sym3;
 
 /// Isotropic linear elasticity whose constants depend on temperature: the law of Saint Venant and Kirchhoff with Young's
 /// modulus and Poisson's ratio of the temperature at the point.
@@ -56,6 +57,13 @@ impl Material for ByTemperature {
     ) -> Result<(), MaterialError> {
         self.lame(strain.temperature)
             .respond(&strain.value, order, out);
+        if order == Order::Tangent {
+            let [_, e, nu] = interpolate(&self.table, strain.temperature);
+            let [_, de, dnu] = slope(&self.table, strain.temperature);
+            let [lambda, mu] = lame_slopes([e, nu], [de, dnu]);
+            out.thermal =
+                Sym3::IDENTITY * (lambda * strain.value.trace()) + strain.value * (2.0 * mu);
+        }
         Ok(())
     }
 
@@ -71,6 +79,14 @@ impl Material for ByTemperature {
     }
 }
 
+/// How (E1) changes with its constants `E`, `ν`.
+fn lame_slopes([e, nu]: [f64; 2], [de, dnu]: [f64; 2]) -> [f64; 2] {
+    let (one, two) = (1.0 + nu, 1.0 - 2.0 * nu);
+    let lambda = de * nu / (one * two) + dnu * e * (1.0 + 2.0 * nu * nu) / (one * two).powi(2);
+    let mu = 0.5 * (de - dnu * e / one) / one;
+    [lambda, mu]
+}
+
 /// The row of a table at a value of its first column: linear between rows, constant outside; zeros of an empty table.
 pub(super) fn interpolate<const N: usize>(table: &[[f64; N]], at: f64) -> [f64; N] {
     let next = table.partition_point(|row| row[0] <= at);
@@ -84,5 +100,15 @@ pub(super) fn interpolate<const N: usize>(table: &[[f64; N]], at: f64) -> [f64; 
         }
         (Some(only), None) | (None, Some(only)) => *only,
         (None, None) => [0.0; N],
+    }
+}
+
+/// How the row of a table changes with its first column: the slope of the segment, zero outside of the table.
+pub(super) fn slope<const N: usize>(table: &[[f64; N]], at: f64) -> [f64; N] {
+    let next = table.partition_point(|row| row[0] <= at);
+    let below = next.checked_sub(1).and_then(|i| table.get(i));
+    match below.zip(table.get(next)) {
+        Some((low, high)) => std::array::from_fn(|i| (high[i] - low[i]) / (high[0] - low[0])),
+        None => [0.0; N],
     }
 }

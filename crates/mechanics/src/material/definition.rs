@@ -65,6 +65,9 @@ pub struct Response {
     pub energy: f64,
     /// The strain zz that a law with stress-free directions found; the others leave it alone.
     pub across: f64,
+    /// Derivative of the stress with respect to temperature at constant strain; valid for [`Order::Tangent`]. Laws that do not
+    /// depend on temperature leave it alone.
+    pub thermal: Sym3,
 }
 
 impl Default for Response {
@@ -74,6 +77,7 @@ impl Default for Response {
             tangent: [[0.0; 6]; 6],
             energy: 0.0,
             across: 0.0,
+            thermal: Sym3::ZERO,
         }
     }
 }
@@ -93,6 +97,9 @@ pub enum MaterialError {
         /// The thermal stretch.
         stretch: f64,
     },
+    /// A strain of what conducts heat alone.
+    #[error("the material conducts heat alone: it has no law for what deforms")]
+    Undeformable,
     /// An iteration at a point did not converge.
     #[error("the material finds no {what} at this strain")]
     NotConverged {

@@ -1,4 +1,4 @@
-use super::by_temperature::interpolate;
+use super::by_temperature::{interpolate, slope};
 use super::{Kinematics, Linearity, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
@@ -60,6 +60,13 @@ impl Expanding {
         alpha * (temperature - self.reference)
     }
 
+    /// `dx/dT`.
+    fn growth_slope(&self, strain: &Strain) -> f64 {
+        let [_, alpha] = interpolate(&self.alpha, strain.temperature);
+        let [_, slope] = slope(&self.alpha, strain.temperature);
+        alpha + slope * (strain.temperature - self.reference)
+    }
+
     /// `x`.
     fn growth(&self, strain: &Strain) -> f64 {
         let free = self.free.unwrap_or(strain.temperature_at_start);
@@ -110,7 +117,21 @@ impl Material for Expanding {
             return Err(MaterialError::Shrunk { stretch });
         }
         let elastic = self.elastic(strain);
+        out.thermal = Sym3::ZERO;
         self.inner.respond(&elastic, old, new, order, out)?;
+        if order == Order::Tangent {
+            let grows = self.growth_slope(strain);
+            let (own, shrinks) = match strain.kinematics {
+                Kinematics::Small => (Sym3::ZERO, Sym3::IDENTITY),
+                // dS = x' S_e + θ C_e dE_e, dE_e = −x' (2 E_e + I)/θ
+                Kinematics::Finite => (
+                    out.stress * grows,
+                    (elastic.value * 2.0 + Sym3::IDENTITY) * stretch.recip(),
+                ),
+            };
+            let inner = out.thermal - through(&out.tangent, shrinks) * grows;
+            out.thermal = own + inner * stretch;
+        }
         out.stress = out.stress * stretch;
         out.energy *= stretch * stretch * stretch;
         if order == Order::Tangent {
@@ -145,4 +166,12 @@ impl Material for Expanding {
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
         self.inner.plastic_strain(history)
     }
+}
+
+/// `C : E`.
+fn through(tangent: &[[f64; 6]; 6], strain: Sym3) -> Sym3 {
+    let mut pairs = strain.to_pairs();
+    pairs.iter_mut().skip(3).for_each(|shear| *shear *= 2.0);
+    let of_row = |row: &[f64; 6]| row.iter().zip(&pairs).map(|(c, e)| c * e).sum();
+    Sym3::from_pairs(tangent.each_ref().map(of_row))
 }

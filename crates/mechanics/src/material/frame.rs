@@ -28,6 +28,7 @@ impl Frame {
         if order == Order::Stress {
             return;
         }
+        out.thermal = self.leave(out.thermal);
         let r = &self.axes.rows;
         let mut bond = [[0.0; 6]; 6];
         for (row, (i, j)) in bond.iter_mut().zip(Sym3::PAIRS) {

@@ -16,12 +16,15 @@
 //!
 //! from the outside in: stress-free directions, thermal expansion, turned axes.
 //!
+//! How a material conducts and stores heat stands next to its law: [`Conductor`].
+//!
 //! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`] and the
 //! constants it needs in `Constants::sample`; the property tests of this room run over the table.
 
 mod anisotropic;
 mod by_temperature;
 mod ciarlet;
+mod conductor;
 mod constants;
 mod definition;
 pub(crate) mod dense;
@@ -44,11 +47,14 @@ mod saint_venant_kirchhoff;
 mod stretches;
 #[cfg(test)]
 mod tests;
+mod undeformed;
 mod unilateral;
 
 pub use anisotropic::Anisotropic;
 pub use by_temperature::ByTemperature;
 pub use ciarlet::Ciarlet;
+pub(crate) use conductor::pulled_back;
+pub use conductor::{Conductor, ConductorError};
 pub use constants::{Constants, ConstantsError};
 pub(crate) use definition::undeformed_tangent;
 pub use definition::{
@@ -66,6 +72,7 @@ pub use ramberg_osgood::RambergOsgood;
 pub use reduced::Reduced;
 pub use rotated_linear::RotatedLinear;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+pub use undeformed::Undeformed;
 pub use unilateral::Unilateral;
 
 use signorini_vocabulary::{Description, Key};

@@ -314,10 +314,11 @@ impl Reduced {
         let n = self.free.len();
         let full = out.tangent;
         // C_ff⁻¹ C_f·
-        let mut columns = [[0.0; MOST]; 6];
+        let mut columns = [[0.0; MOST]; 7];
+        let mut thermal = out.thermal.to_pairs();
         for (q, column) in columns.iter_mut().enumerate() {
             for (c, &p) in column.iter_mut().zip(self.free) {
-                *c = full[p][q];
+                *c = full[p].get(q).copied().unwrap_or(thermal[p]);
             }
         }
         if self.inner.is_symmetric() {
@@ -326,6 +327,14 @@ impl Reduced {
         } else {
             self.eliminate(&full, &mut columns)?;
         }
+        let [.., last] = columns;
+        for (to, from) in thermal.iter_mut().zip(&full) {
+            *to -= last
+                .iter()
+                .zip(self.free)
+                .map(|(c, &p)| from[p] * c)
+                .sum::<f64>();
+        }
         for (row, from) in out.tangent.iter_mut().zip(&full) {
             for (to, column) in row.iter_mut().zip(&columns) {
                 for (c, &p) in column.iter().zip(self.free) {
@@ -333,6 +342,8 @@ impl Reduced {
                 }
             }
         }
+        self.free.iter().for_each(|&p| thermal[p] = 0.0);
+        out.thermal = Sym3::from_pairs(thermal);
         for &p in self.free {
             out.tangent[p] = [0.0; 6];
             for row in &mut out.tangent {

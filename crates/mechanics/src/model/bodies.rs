@@ -1,3 +1,4 @@
+use super::heat;
 use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
 use crate::connector::Damper;
 use crate::material::Kinematics;
@@ -214,6 +215,7 @@ impl Context<'_> {
         let conserving = &sizes_of_strain(steps.iter().filter(conserve));
         let mut terms = Terms::new();
         let mut summaries = Vec::new();
+        let deforms = steps.iter().any(|step| step.physics.moves);
         for body in bodies {
             let (name, cells) = (&*body.name, &*body.cells);
             let (mesh, layout) = (self.mesh, self.layout);
@@ -231,8 +233,20 @@ impl Context<'_> {
                     at_nodes,
                     initial,
                     axes,
+                    heat,
                     ..
                 } => {
+                    let site = heat::Site {
+                        name,
+                        cells,
+                        space,
+                        profile: profile.clone(),
+                        integration,
+                    };
+                    terms.extend(self.heat(site, heat.as_deref())?);
+                    if !deforms {
+                        continue;
+                    }
                     let mut solid = Solid::new(SolidParts {
                         name,
                         mesh,

@@ -4,6 +4,7 @@ use super::constraints::{Followers, Ties};
 use super::parts::CarrierPart;
 use super::spaces::Spaces;
 use super::substance::Substance;
+use crate::load::RadiationConstants;
 use crate::system::{Activity, Elimination, Idealisation, Layout, RigidMass};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::Pose;
@@ -28,6 +29,8 @@ pub(super) struct Context<'a> {
     pub space: Idealisation,
     pub spaces: &'a Spaces<'a>,
     pub layout: Layout,
+    /// The constants of radiation, where they are known.
+    pub radiation: Option<RadiationConstants>,
     pub ties: &'a Ties,
     /// Poses of the carriers at the start.
     pub poses: Vec<Pose>,

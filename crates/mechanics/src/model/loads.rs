@@ -179,7 +179,16 @@ impl Context<'_> {
             }
             Place::Faces(_) | Place::Cells(_) | Place::Points => self.site(part, schedule.clone()),
         };
+        if load.properties().is_heat && !self.layout.has_temperatures() {
+            return Err(named(LoadError::NoTemperatures));
+        }
         match load.effect(site.map_err(named)?).map_err(named)? {
+            Effect::Heats(heats) => {
+                let of_node = |(node, heat)| (self.layout.temperature(node), heat);
+                let heats = acting(heats.into_iter().map(of_node));
+                let term = self.dead(name, &heats, schedule);
+                Ok(term.map(|t| Box::new(t) as Box<dyn Term>))
+            }
             Effect::Term(term) => Ok(Some(term)),
             Effect::Forces(forces) => {
                 let term = self.dead(name, &self.at_nodes(forces), schedule);
@@ -246,6 +255,7 @@ impl Context<'_> {
             revolved: false,
             schedule,
             layout: self.layout,
+            radiation: self.radiation,
             reference: self.reference,
         };
         match (part.load.load.properties().domain, &part.load.place) {

@@ -27,6 +27,7 @@ mod constraints;
 mod contact;
 mod context;
 mod error;
+mod heat;
 mod held;
 mod impact;
 mod inertia;
@@ -49,9 +50,9 @@ pub use impact::ControlPart;
 pub use parts::{
     ActivityPart, AreaPart, BodyKind, BodyPart, CarrierMass, CarrierPart, CarrierVelocity, Change,
     ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart,
-    FrictionPart, Interference, LoadPart, MassMatrix, MassPart, Method, Normals, PairOrder, Parts,
-    PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart, StepPart, StickPart,
-    Target, TieOffset, TiePart, Unknown,
+    FrictionPart, HeatPart, Interference, LoadPart, MassMatrix, MassPart, Method, Normals,
+    PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart, StepPart,
+    StickPart, Target, TieOffset, TiePart, Unknown,
 };
 pub use summary::{
     BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
@@ -162,7 +163,7 @@ impl Model {
             springs: &parts.springs,
             contacts,
         };
-        let mut layout = followers.layout();
+        let mut layout = heat::with_temperatures(followers.layout(), &parts.steps);
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
         let tolerances = [parts.gap_tol, parts.traction_tol];
@@ -189,6 +190,7 @@ impl Model {
         something_deforms(&modulus, &parts)?;
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
         let singles = Singles::new(&body_of_node, &followers, &parts.masses);
+        let at_start = heat::at_start(&layout, &parts.temperature);
         let temperature = temperatures(parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
@@ -204,6 +206,7 @@ impl Model {
             space,
             spaces: &spaces,
             layout,
+            radiation: parts.radiation,
             ties: &ties,
             poses,
             activity,
@@ -237,6 +240,7 @@ impl Model {
                 between,
                 ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
                 rates,
+                at_start,
                 wanted: crate::system::Wanted::default(),
             },
             steps,
@@ -250,8 +254,9 @@ impl Model {
 /// Where nothing deforms, only inertia gives equations.
 fn something_deforms(modulus: &[Option<f64>], parts: &Parts<'_>) -> Result<(), ModelError> {
     let moves = parts.steps.iter().any(|step| step.scheme.is_some());
+    let stands_still = parts.steps.iter().all(|step| !step.physics.moves);
     let is_rigid = modulus.iter().all(Option::is_none) && parts.springs.is_empty();
-    match is_rigid && !moves {
+    match is_rigid && !moves && !stands_still {
         true => Err(ModelError::NothingDeforms),
         false => Ok(()),
     }
@@ -277,10 +282,13 @@ impl Followers<'_> {
     ) -> Result<Vec<Unheld>, ModelError> {
         let mut all: Vec<Unheld> = Vec::new();
         let changed = (1..steps.len()).filter(|&step| context.activity.changes_at(step));
-        let is_static = |number: &usize| steps.get(*number).is_none_or(Step::is_static);
-        // vibrations need no supports
-        let first = steps.iter().position(|step| step.vibration.is_none());
-        let first = first.unwrap_or_default();
+        let is_static = |number: &usize| {
+            let step = steps.get(*number);
+            step.is_none_or(|step| step.is_static() && step.physics.moves)
+        };
+        // vibrations need no supports, nor does heat
+        let needs = |step: &Step| step.vibration.is_none() && step.physics.moves;
+        let first = steps.iter().position(needs).unwrap_or_default();
         for number in std::iter::once(first).chain(changed).filter(is_static) {
             let held = self.held_in(context, contacts, steps, number);
             match held.judge() {

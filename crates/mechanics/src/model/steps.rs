@@ -1,5 +1,6 @@
 use super::constraint_error::ConstraintError;
 use super::constraints::components;
+use super::heat::Temperatures;
 use super::label::label;
 use super::{Change, ContactPart, Context, LoadPart, ModelError, StepPart, Target};
 use crate::load::Place;
@@ -133,6 +134,7 @@ impl Context<'_> {
         let mut named: BTreeSet<Dof> = BTreeSet::new();
         let mut loads: Vec<Vec<LoadPart>> = Vec::new();
         let mut steps = Vec::new();
+        let mut temperatures = Temperatures::default();
         for part in parts {
             for motion in prescribed.values_mut() {
                 if !motion.goes_on() {
@@ -196,6 +198,7 @@ impl Context<'_> {
             if part.scheme.is_some() {
                 prescribed.retain(|dof, _| !by_mass.contains(dof));
             }
+            let of_heat = temperatures.of(&part, &self.layout);
             loads.push(part.loads);
             let here = prescribed.iter().filter(|(dof, _)| !by_mass.contains(dof));
             let prescriptions = here.map(|(&dof, motion)| Prescription {
@@ -213,7 +216,8 @@ impl Context<'_> {
                 scheme: part.scheme,
                 control: part.control.map(|control| self.control(&control, contacts)),
                 vibration: part.vibration,
-                prescriptions: prescriptions.collect(),
+                physics: part.physics,
+                prescriptions: prescriptions.chain(of_heat).collect(),
             });
         }
         Ok((steps, loads))

@@ -1,6 +1,6 @@
 //! Where bodies are evaluated.
 
-use crate::system::{Dof, NodalField, State, StepContext};
+use crate::system::{Dof, Layout, NodalField, State, StepContext};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 
@@ -29,10 +29,19 @@ impl<'a> At<'a> {
         }
     }
 
-    /// The temperature of a node.
-    pub fn temperature(self, field: &NodalField, step: &StepContext, node: NodeId) -> f64 {
+    /// The temperature of a node: the unknown where it is one.
+    pub fn temperature(
+        self,
+        layout: &Layout,
+        field: &NodalField,
+        step: &StepContext,
+        node: NodeId,
+    ) -> f64 {
         match self {
-            Self::Trial(state) => field.at(step, state.time, node),
+            Self::Trial(state) => {
+                let unknown = state.u.get(layout.temperature(node) as usize).copied();
+                unknown.unwrap_or_else(|| field.at(step, state.time, node))
+            }
             Self::Start => field.at_start(node),
         }
     }

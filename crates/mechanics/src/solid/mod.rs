@@ -61,6 +61,11 @@
 //! In motions in time the stiffness of a body may damp, [`Solid::set_retardation`]: (E29) to (E31) in `damping`, and at finite strain (E24)
 //! to (E28) in `kernel::viscous`.
 //!
+//! # Heat
+//!
+//! Where temperatures are unknowns, [`HeatInBody`] conducts and stores: (E32) to (E34) in `heat`. What stresses are against them is
+//! (E35) in `swelling`.
+//!
 //! # At the start
 //!
 //! A point may have a stress `S_0` and a strain `E_0` that leaves no stress, [`AtStart`]: `S = S(E − E_0) + S_0`, with
@@ -104,10 +109,12 @@ mod choice;
 mod conserving;
 mod damping;
 mod error;
+mod heat;
 mod kernel;
 mod plan;
 mod report;
 mod scratch;
+mod swelling;
 mod term;
 #[cfg(test)]
 mod tests;
@@ -118,6 +125,7 @@ pub use axes::{Cylindrical, MaterialAxes};
 pub use cells::AtStart;
 pub use choice::{Integration, Locking};
 pub use error::SolidError;
+pub use heat::{HeatInBody, HeatParts, Storage};
 pub use report::AtNodes;
 pub use term::{Solid, SolidParts};
 pub use truss::{Truss, TrussParts};

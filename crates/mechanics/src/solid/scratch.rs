@@ -19,6 +19,9 @@ pub(super) struct Scratch {
     pub dofs: Vec<Dof>,
     pub force: Vec<f64>,
     pub stiffness: Vec<f64>,
+    /// Against temperatures of the nodes, where these are unknown.
+    pub thermal: Vec<f64>,
+    pub heat: Vec<Dof>,
     pub samples: Vec<Sample>,
     pub new: Vec<f64>,
     pub inner: Vec<f64>,

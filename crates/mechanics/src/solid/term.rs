@@ -275,7 +275,7 @@ impl Solid {
         at: At<'_>,
         wanted: Wanted,
         scratch: &mut Scratch,
-        mut take: impl FnMut(&Cells, usize, f64, &Scratch),
+        mut take: impl FnMut(&Cells, usize, f64, &mut Scratch),
     ) -> Result<(), TermError> {
         let Some(&(number, first, last)) = self.chunks.get(chunk) else {
             return Ok(());
@@ -285,7 +285,11 @@ impl Solid {
         let is_symmetric = self.is_symmetric(at);
         let batch = block.treatment(self.kinematics).batch;
         let flow = self.flow(at, wanted);
-        let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric && flow.is_none());
+        let swells = wanted == Wanted::Stiffness && self.swells();
+        let nheat = if swells { block.nnode } else { 0 };
+        (scratch.thermal).resize(block.nnode * self.layout.ndim() * nheat, 0.0);
+        let is_plain = is_symmetric && flow.is_none() && !swells;
+        let batch = batch.filter(|_| wanted != Wanted::Samples && is_plain);
         let width = if batch.is_some() { width() } else { 1 };
         for begin in (first..last).step_by(width) {
             let cells = begin..last.min(begin + width);
@@ -475,7 +479,7 @@ impl Solid {
         let nodes = block.nodes_of(cell).iter();
         let start = |node: NodeId| field.at_begin(since.unwrap_or(0), node);
         now.extend(nodes.clone().map(|&node| match at {
-            At::Trial(_) => at.temperature(field, &self.step, node),
+            At::Trial(_) => at.temperature(&self.layout, field, &self.step, node),
             At::Start => start(node),
         }));
         at_start.extend(nodes.map(|&node| start(node)));
@@ -566,6 +570,7 @@ impl Solid {
             force: &mut scratch.force,
             stiffness: &mut scratch.stiffness,
             energy: 0.0,
+            thermal: &mut scratch.thermal,
             new: &mut scratch.new,
             samples: &mut scratch.samples,
             scratch: &mut scratch.inner,
@@ -616,12 +621,14 @@ impl Term for Solid {
         let mut all = std::iter::once(&self.material).chain(later);
         let is_secant = self.takes_secants();
         let is_viscous = self.damping.stiff().is_some() && self.kinematics == Kinematics::Finite;
-        let symmetry = if !is_secant && !is_viscous && all.all(|material| material.is_symmetric()) {
+        let is_plain = !is_secant && !is_viscous && !self.swells();
+        let symmetry = if is_plain && all.all(|material| material.is_symmetric()) {
             Symmetry::Definite
         } else {
             Symmetry::Unsymmetric
         };
         let lifetime = match (self.kinematics, &self.temperature) {
+            _ if self.swells() => Lifetime::State,
             (Kinematics::Small, _) if !self.material().linearity().is_linear() => Lifetime::State,
             (Kinematics::Small, Some(_)) => Lifetime::Increment,
             (Kinematics::Small, None) => Lifetime::Step,
@@ -641,6 +648,7 @@ impl Term for Solid {
             let cells = block.nodes.chunks_exact(block.nnode).enumerate();
             for (_, nodes) in cells.filter(|(cell, _)| block.part.is_active(*cell)) {
                 out.bulk(nodes);
+                self.couple_heat(nodes, out);
             }
         }
     }
@@ -675,6 +683,9 @@ impl Term for Solid {
     }
 
     fn nchunk(&self) -> usize {
+        if !self.step.physics.moves {
+            return 0;
+        }
         self.chunks.len() + self.plan.as_ref().map_or(0, Plan::nchunk)
     }
 
@@ -700,6 +711,7 @@ impl Term for Solid {
         let stiffer = 1.0 + self.damping.retardation * slope;
         self.each(chunk, at, wanted, scratch, |block, cell, _, s| {
             self.hand(at, s, out);
+            self.hand_thermal(block.nodes_of(cell), s, out);
             // strains are sums of as many products as there are nodes
             let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
             let sum = block.rigidity[cell] * block.nnode as f64 * stiffer;
@@ -766,7 +778,7 @@ impl Term for Solid {
             frame.temperature.resize(frame.stress.len(), 0.0);
             for &node in self.blocks.iter().flat_map(|b| &b.nodes) {
                 if let Some(to) = frame.temperature.get_mut(node as usize) {
-                    *to = field.at(&self.step, state.time, node);
+                    *to = At::Trial(state).temperature(&self.layout, field, &self.step, node);
                 }
             }
         }

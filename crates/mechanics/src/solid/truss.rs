@@ -298,7 +298,7 @@ impl Truss {
             .shape(&bar.element.full_rule().points[point], &mut shape[..n]);
         let start = |(&node, n): (&NodeId, f64)| n * field.at_begin(since, node);
         let now = |(&node, n): (&NodeId, f64)| match at {
-            At::Trial(_) => n * at.temperature(field, &self.step, node),
+            At::Trial(_) => n * at.temperature(&self.layout, field, &self.step, node),
             At::Start => start((&node, n)),
         };
         let nodes = || bar.nodes.iter().zip(shape);

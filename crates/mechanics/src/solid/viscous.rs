@@ -87,6 +87,7 @@ impl Solid {
         viscous.stiffness.resize(nstiffness, 0.0);
         viscous.new.resize(block.nhistory, 0.0);
         let mut out = Output {
+            thermal: &mut [],
             force: &mut viscous.force,
             stiffness: &mut viscous.stiffness,
             energy: 0.0,

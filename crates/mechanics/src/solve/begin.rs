@@ -3,7 +3,7 @@
 use super::newton::Failure;
 use super::step::{Prescription, Step};
 use super::stepping::{RunError, Stepper};
-use crate::system::{Choices, Phase, System};
+use crate::system::{Choices, Dof, Layout, Phase, System};
 
 impl Stepper {
     /// How a run ends whose step cannot begin.
@@ -49,6 +49,14 @@ impl Stepper {
             if let Some(prescribed) = prescribed.get_mut(p.dof as usize) {
                 *prescribed = true;
             }
+        }
+        if !step.physics.moves {
+            let is_of_heat = |dof: usize| {
+                let name = layout.name(dof as Dof);
+                name.is_some_and(|name| layout.field(name.field) == Some(&Layout::TEMPERATURE))
+            };
+            let motions = prescribed.iter_mut().enumerate();
+            motions.for_each(|(dof, stays)| *stays |= !is_of_heat(dof));
         }
         for term in system.choices_mut() {
             term.prescribe(prescribed);

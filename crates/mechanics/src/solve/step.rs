@@ -1,7 +1,7 @@
 //! Steps: their increments, and the values that they prescribe.
 
 use super::TimeControl;
-use crate::system::{Dof, Scheme, StepContext, TimeFunction};
+use crate::system::{Dof, Physics, Scheme, StepContext, TimeFunction};
 
 /// How a step is cut into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +72,8 @@ pub struct Step {
     pub control: Option<TimeControl>,
     /// Which natural modes are found in it, at the state where it begins; it then takes no time, and changes nothing.
     pub vibration: Option<Vibration>,
+    /// What is unknown in it.
+    pub physics: Physics,
     /// What is prescribed during it; everything else is free.
     pub prescriptions: Vec<Prescription>,
 }
@@ -110,6 +112,7 @@ impl Step {
                 false => self.scheme,
             },
             vibrates,
+            physics: self.physics,
         }
     }
 }

@@ -62,6 +62,8 @@ pub(super) struct Cliques<'a> {
     pub(super) bulk_offsets: Vec<usize>,
     pub(super) interface: Vec<u32>,
     pub(super) interface_offsets: Vec<usize>,
+    /// Of each clique of the interface, how many members couple with the others alone; 0: all couple.
+    pub(super) interface_splits: Vec<usize>,
     pub(super) dofs: Vec<Dof>,
 }
 
@@ -75,7 +77,21 @@ impl Cliques<'_> {
     /// The pattern of the interface.
     fn of_interface(&self) -> Pattern {
         let (dofs, offsets) = (&self.interface, &self.interface_offsets);
-        Pattern::from_cliques(self.layout.ndof(), dofs, offsets)
+        let splits = &self.interface_splits;
+        Pattern::from_split_cliques(self.layout.ndof(), dofs, offsets, splits)
+    }
+
+    /// Adds a clique of what takes the place of these dofs: all couple, or the first with the others alone, if there are any.
+    fn clique(&mut self, first: &[Dof], others: &[Dof]) {
+        self.dofs.clear();
+        let (elimination, layout) = (self.elimination, self.layout);
+        elimination.independent(first, layout, &mut self.dofs);
+        let split = self.dofs.len();
+        elimination.independent(others, layout, &mut self.dofs);
+        self.interface.extend_from_slice(&self.dofs);
+        self.interface_offsets.push(self.interface.len());
+        self.interface_splits
+            .push(if others.is_empty() { 0 } else { split });
     }
 }
 
@@ -94,11 +110,11 @@ impl PatternSink for Cliques<'_> {
     }
 
     fn interface(&mut self, dofs: &[Dof]) {
-        self.dofs.clear();
-        self.elimination
-            .independent(dofs, self.layout, &mut self.dofs);
-        self.interface.extend_from_slice(&self.dofs);
-        self.interface_offsets.push(self.interface.len());
+        self.clique(dofs, &[]);
+    }
+
+    fn coupling(&mut self, ones: &[Dof], others: &[Dof]) {
+        self.clique(ones, others);
     }
 }
 
@@ -733,6 +749,7 @@ pub(super) fn collect<'a>(
         bulk_offsets: vec![0],
         interface: Vec::new(),
         interface_offsets: vec![0],
+        interface_splits: Vec::new(),
         dofs: Vec::new(),
     };
     for term in terms {

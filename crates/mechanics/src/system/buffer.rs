@@ -17,6 +17,10 @@ pub(super) struct Buffer {
     pub dofs: Vec<Dof>,
     pub force: Vec<f64>,
     pub stiffness: Vec<f64>,
+    /// What couples fields: the numbers of rows and columns of each, their dofs one after the other, and the stiffnesses.
+    pub couplings: Vec<[usize; 2]>,
+    pub coupled: Vec<Dof>,
+    pub coupling: Vec<f64>,
     /// Errors at other dofs than those of a contribution.
     pub errors: Vec<(Dof, f64)>,
     /// Whether unknowns in it follow others.
@@ -108,7 +112,21 @@ impl Buffer {
         self.dofs.clear();
         self.force.clear();
         self.stiffness.clear();
+        self.couplings.clear();
+        self.coupled.clear();
+        self.coupling.clear();
         self.errors.clear();
+    }
+
+    /// What couples fields: rows, columns and stiffness of each.
+    pub fn couplings(&self) -> impl Iterator<Item = (&[Dof], &[Dof], &[f64])> {
+        let (mut dofs, mut stiffness) = (&self.coupled[..], &self.coupling[..]);
+        self.couplings.iter().map(move |&[nrow, ncolumn]| {
+            let mut take = |n| dofs.split_off(..n).unwrap_or_default();
+            let (rows, columns) = (take(nrow), take(ncolumn));
+            let own = stiffness.split_off(..nrow * ncolumn).unwrap_or_default();
+            (rows, columns, own)
+        })
     }
 
     /// Each contribution with its dofs, forces and stiffness.
@@ -138,6 +156,14 @@ impl Sink for Buffer {
 
     fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], blocks: &[f64], _: usize) {
         self.push(dofs, force, blocks, true);
+    }
+
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        debug_assert_eq!(stiffness.len(), rows.len() * columns.len());
+        self.couplings.push([rows.len(), columns.len()]);
+        self.coupled.extend_from_slice(rows);
+        self.coupled.extend_from_slice(columns);
+        self.coupling.extend_from_slice(stiffness);
     }
 
     fn uncertain(&mut self, dofs: &[Dof], error: f64) {

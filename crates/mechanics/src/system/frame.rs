@@ -327,6 +327,13 @@ pub struct Frame {
     pub samples: Samples,
     /// Temperature of each node; empty where there are none.
     pub temperature: Vec<f64>,
+    /// Flux of heat at each node through present areas (heat per time and area), the mean over the cells around it; empty where
+    /// temperatures are no unknowns.
+    pub heat_flux: Vec<Vec3>,
+    /// How much went into each of these means.
+    pub heat_weight: Vec<f64>,
+    /// Heat that bodies took up since the start.
+    pub heat_stored: f64,
     /// Contact force on each node, of both sides.
     pub contact_force: Vec<Vec3>,
     /// Contact pressure at each node, 0 where there is no contact.

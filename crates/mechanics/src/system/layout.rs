@@ -182,10 +182,20 @@ pub struct Layout {
     nrigid: usize,
     nmultiplier: usize,
     nfield: usize,
+    /// The number of the field of temperatures; [`MAX_FIELDS`] where there is none.
+    heat: usize,
     slots: [Slot; MAX_FIELDS],
 }
 
 impl Layout {
+    /// The field of temperatures: one at each node.
+    pub const TEMPERATURE: Field = Field {
+        name: "temperature",
+        on: Site::Nodes,
+        ncomponent: 1,
+        scale: Scale::Own,
+    };
+
     /// The scale of displacements and translations, forces.
     pub const FORCES: usize = 0;
     /// The scale of rotations, moments.
@@ -240,6 +250,7 @@ impl Layout {
             nrigid,
             nmultiplier: 0,
             nfield: table.len(),
+            heat: MAX_FIELDS,
             slots,
         }
     }
@@ -277,6 +288,9 @@ impl Layout {
         let count = self.count(field.on) as u32;
         self.slots[FieldId::MULTIPLIER.index()].first += count * slot.stride;
         *self.slots.get_mut(self.nfield)? = slot;
+        if field == Self::TEMPERATURE {
+            self.heat = self.nfield;
+        }
         self.nfield += 1;
         (!is_refused).then_some(self)
     }
@@ -376,6 +390,20 @@ impl Layout {
     #[must_use]
     pub const fn node(&self, node: NodeId, axis: usize) -> Dof {
         self.slots[FieldId::DISPLACEMENT.index()].dof(node, axis)
+    }
+
+    /// Temperature of a node; [`NO_DOF`] where temperatures are no unknowns.
+    #[inline]
+    #[must_use]
+    pub fn temperature(&self, node: NodeId) -> Dof {
+        let slot = self.slots.get(self.heat);
+        slot.map_or(NO_DOF, |slot| slot.dof(node, 0))
+    }
+
+    /// Whether temperatures are unknowns.
+    #[must_use]
+    pub const fn has_temperatures(&self) -> bool {
+        self.heat < MAX_FIELDS
     }
 
     /// Translation of a rigid body along an axis; none along `z` in the plane.
@@ -522,12 +550,7 @@ impl Layout {
 mod tests {
     use super::*;
 
-    const HEAT: Field = Field {
-        name: "temperature",
-        on: Site::Nodes,
-        ncomponent: 1,
-        scale: Scale::Own,
-    };
+    const HEAT: Field = Layout::TEMPERATURE;
 
     fn layout(ndim: usize) -> Layout {
         Layout::new(ndim, 5, 2).with_multipliers(3)
@@ -579,6 +602,14 @@ mod tests {
             assert_eq!(after.name(dof), before.name(dof));
         }
         let heat = after.find("temperature").unwrap();
+        assert_eq!(
+            (before.has_temperatures(), after.has_temperatures()),
+            (false, true)
+        );
+        assert_eq!(
+            (before.temperature(3), after.temperature(3)),
+            (NO_DOF, after.dof(heat, 3, 0))
+        );
         let dofs: Vec<Dof> = after.dofs(heat).collect();
         let first = before.nmotion() as Dof;
         assert_eq!(dofs, (first..first + 5).collect::<Vec<_>>());

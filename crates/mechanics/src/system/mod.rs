@@ -94,7 +94,7 @@ pub use impulsive::{Acts, Impulsive, NearRow, Rubbing};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
 pub use loose::Course;
 pub use motion::{Between, BodyRates, BodyWay, Leapfrog, MassScaling, Rates, Scheme};
-pub use phase::{Increment, Phase, StepContext};
+pub use phase::{Heat, Increment, Phase, Physics, StepContext};
 pub use rigid_motion::{RigidMass, moved};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;

@@ -2,6 +2,54 @@
 
 use super::Scheme;
 
+/// What a step does with temperatures, in a model in which they are unknowns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Heat {
+    /// They are prescribed everywhere.
+    #[default]
+    Given,
+    /// They are in equilibrium: as much heat flows in as out.
+    Steady,
+    /// Bodies store heat.
+    Transient,
+}
+
+/// What is unknown in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Physics {
+    /// Whether displacements are; else everything stays where it is.
+    pub moves: bool,
+    /// Whether temperatures are.
+    pub heat: Heat,
+}
+
+impl Physics {
+    /// Temperatures alone.
+    #[must_use]
+    pub const fn heat(heat: Heat) -> Self {
+        Self { moves: false, heat }
+    }
+
+    /// Displacements and temperatures.
+    #[must_use]
+    pub const fn coupled(heat: Heat) -> Self {
+        Self { moves: true, heat }
+    }
+
+    /// Whether temperatures are unknown.
+    #[must_use]
+    pub fn has_heat(&self) -> bool {
+        self.heat != Heat::Given
+    }
+}
+
+/// Displacements alone.
+impl Default for Physics {
+    fn default() -> Self {
+        Self::coupled(Heat::Given)
+    }
+}
+
 /// The step a run is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepContext {
@@ -18,6 +66,8 @@ pub struct StepContext {
     /// Whether nothing moves in it but small vibrations about the accepted state, which it leaves as it is: closed contact is
     /// joined as it was accepted, sticking in all directions and sliding across alone.
     pub vibrates: bool,
+    /// What is unknown in it.
+    pub physics: Physics,
 }
 
 impl StepContext {
@@ -44,6 +94,7 @@ impl Default for StepContext {
             nonlinear: true,
             scheme: None,
             vibrates: false,
+            physics: Physics::default(),
         }
     }
 }

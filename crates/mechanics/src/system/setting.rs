@@ -4,7 +4,7 @@ use super::assembly::{Assembly, Shared, Task};
 use super::buffer::{Buffer, Contribution, Slot};
 use super::elimination::Expanded;
 use super::shares::{Share, divide};
-use super::sink::fill_up;
+use super::sink::{fill_up, square};
 use super::strip::{Strip, find_blocks, find_places};
 use super::{Dof, Elimination, Layout, NO_DOF, Part, State, TermError, Work};
 use rayon::prelude::*;
@@ -45,7 +45,7 @@ impl Setting<'_> {
             } = slot;
             buffer.clear();
             *failure = evaluate(task, work, buffer).err();
-            let mut dofs = buffer.dofs.iter();
+            let mut dofs = buffer.dofs.iter().chain(&buffer.coupled);
             buffer.has_dependent = dofs.any(|&dof| self.elimination.depends(dof, self.layout));
             if task.part == Part::Bulk && task.positions.is_empty() {
                 self.find(buffer, &mut task.positions);
@@ -227,6 +227,20 @@ impl Setting<'_> {
             self.add_entries(whole, &expanded.dofs, &expanded.stiffness);
             is_apart &= task.part == Part::Interface;
         }
+        for (rows, columns, stiffness) in buffer.couplings() {
+            if !rows.iter().chain(columns).any(|&dof| depends(dof)) {
+                self.add_entries_of(whole, rows, columns, stiffness);
+                continue;
+            }
+            square(rows, columns, stiffness, &mut full);
+            let (dofs, force) = (
+                [rows, columns].concat(),
+                vec![0.0; rows.len() + columns.len()],
+            );
+            let (elimination, layout) = (self.elimination, self.layout);
+            elimination.expand(&dofs, &force, &full, false, self.trial, layout, expanded);
+            self.add_entries(whole, &expanded.dofs, &expanded.stiffness);
+        }
         is_apart
     }
 
@@ -243,6 +257,9 @@ impl Setting<'_> {
             strip.add_force(dofs, force);
             let at_blocks = own.positions(self.layout.ndim(), &mut positions);
             self.add_stiffness(strip, own, dofs, stiffness, at_blocks, task.part);
+        }
+        for (rows, columns, stiffness) in buffer.couplings() {
+            self.add_entries_of(strip, rows, columns, stiffness);
         }
     }
 
@@ -277,17 +294,22 @@ impl Setting<'_> {
     }
 
     pub fn add_entries(self, strip: &mut Strip<'_>, dofs: &[Dof], stiffness: &[f64]) {
+        self.add_entries_of(strip, dofs, dofs, stiffness);
+    }
+
+    /// Adds a stiffness of some rows against some columns to the interface.
+    fn add_entries_of(self, strip: &mut Strip<'_>, rows: &[Dof], of: &[Dof], stiffness: &[f64]) {
         let mut places = std::mem::take(&mut strip.places);
         places.clear();
         let mut known: &[u32] = &[];
-        for (row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len().max(1))) {
+        for (row, values) in rows.iter().zip(stiffness.chunks_exact(of.len().max(1))) {
             if *row == NO_DOF || !strip.has(*row) {
                 continue;
             }
             let (first, columns) = self.interface.row(*row);
             // those of one node have the same columns
             if columns != known {
-                find_places(dofs, columns, &mut places);
+                find_places(of, columns, &mut places);
                 known = columns;
             }
             let to = strip.entries(first, columns.len());

@@ -100,6 +100,10 @@ pub trait PatternSink {
     fn bulk(&mut self, nodes: &[NodeId]);
     /// These dofs see each other, in the interface.
     fn interface(&mut self, dofs: &[Dof]);
+    /// Each of the dofs `ones` sees each of `others`, and the other way round, in the interface: what couples two fields.
+    fn coupling(&mut self, ones: &[Dof], others: &[Dof]) {
+        self.interface(&[ones, others].concat());
+    }
 }
 
 /// Takes local forces and stiffnesses.
@@ -114,6 +118,14 @@ pub trait Sink {
         let mut stiffness = Vec::new();
         fill_up(blocks, dofs.len(), ndim, &mut stiffness);
         self.add(dofs, force, &stiffness);
+    }
+
+    /// Adds a stiffness of forces at `rows` against `columns` to the interface, row-major: what couples two fields.
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        let mut full = Vec::new();
+        square(rows, columns, stiffness, &mut full);
+        let dofs = [rows, columns].concat();
+        self.add(&dofs, &vec![0.0; dofs.len()], &full);
     }
 
     /// Says that forces at these dofs are uncertain by `error` through rounding: a stiff law amplifies the rounding of
@@ -134,6 +146,19 @@ pub(super) fn fill_up(blocks: &[f64], n: usize, ndim: usize, full: &mut Vec<f64>
             let (row, column) = (i * ndim + k / ndim, j * ndim + k % ndim);
             full[row * n + column] = *value;
             full[column * n + row] = *value;
+        }
+    }
+}
+
+/// A stiffness of some rows against some columns as one of all against all.
+pub(super) fn square(rows: &[Dof], columns: &[Dof], stiffness: &[f64], full: &mut Vec<f64>) {
+    let (nrow, n) = (rows.len(), rows.len() + columns.len());
+    full.clear();
+    full.resize(n * n, 0.0);
+    let of_rows = stiffness.chunks_exact(columns.len().max(1));
+    for (to, from) in full.chunks_exact_mut(n.max(1)).zip(of_rows) {
+        if let Some(to) = to.get_mut(nrow..) {
+            to.copy_from_slice(from);
         }
     }
 }

@@ -32,6 +32,8 @@ pub struct System {
     pub heavy: Arc<[RigidMass]>,
     /// How everything moves at the start; none where nothing does.
     pub rates: Option<Rates>,
+    /// Unknowns that are not zero at the start, with their values.
+    pub at_start: Arc<[(Dof, f64)]>,
     /// What frames have besides.
     pub wanted: Wanted,
 }
@@ -40,10 +42,16 @@ impl System {
     /// The undeformed state.
     #[must_use]
     pub fn initial_state(&self) -> State {
-        State {
+        let mut state = State {
             rates: self.rates.clone(),
             ..State::initial(&self.layout, &self.reference, &self.elimination)
+        };
+        for &(dof, value) in self.at_start.iter() {
+            if let Some(to) = state.u.get_mut(dof as usize) {
+                *to = value;
+            }
         }
+        state
     }
 
     /// The terms that change for the sake of an iteration.

@@ -261,6 +261,7 @@ pub fn solid(name: &str, cells: &[CellId], material: impl Material + 'static) ->
             at_nodes: Default::default(),
             initial: Vec::new(),
             axes: None,
+            heat: None,
         },
     }
 }

@@ -430,6 +430,7 @@ fn a_joint_follows_supports_that_change_from_step_to_step() {
                 on: "upper".to_owned().into(),
                 u,
                 rot: Directions::default(),
+                temperature: false,
                 place: Place::nowhere(),
             }],
             ..held

@@ -3,7 +3,7 @@
 use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::orientation::{axes, axes_of_no_body, oriented};
-use super::{OwnPlane, quoted};
+use super::{OwnPlane, heat, quoted};
 use crate::own::Own;
 use crate::text::plural;
 use signorini_geometry::element::LockingClass;
@@ -13,6 +13,7 @@ use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures, Thicknes
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Plasticity,
+    Undeformed,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary, MassMatrix, MassPart};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
@@ -194,6 +195,7 @@ fn body_part(
     if let Some(plane) = plane {
         thick(case, body, (plane, &cells), names, found)?;
     }
+    let heat = heat::of_body((case, names), (body, &cells), part, found);
     Some(BodyPart {
         name,
         kind: BodyKind::Solid {
@@ -211,6 +213,7 @@ fn body_part(
                 case::AtNodes::Element => AtNodes::Element,
             },
             initial: initial(case, names, &cells),
+            heat,
             axes: match body.orientation {
                 Some(_) => Some(Box::new(axes(case, body, names, &cells, found)?)),
                 None => None,
@@ -453,6 +456,9 @@ fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
 
 /// The law of a material, of the case or the program, with plasticity and thermal expansion.
 fn law(part: &case::Material, own: &Own, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
+    if part.model.value.is_empty() {
+        return Some(Box::new(Undeformed));
+    }
     let inner: Option<Box<dyn Material>> = match (&part.own, &part.plasticity) {
         (Some(name), _) => {
             let shared = own.materials.get(&name.value);

@@ -1,6 +1,7 @@
 //! Contacts, and their changes in a step.
 
 use super::constraints::unpaired;
+use super::heat;
 use super::names::Names;
 use super::nonlinear::nonlinear;
 use super::surfaces::Surfaces;
@@ -49,6 +50,7 @@ pub(super) fn contacts(
         let part = contact(one, &case.steps, names, surfaces, own, found)?;
         Some(ContactPart {
             smooths: case.output.smooth_pressures,
+            heat: heat::of_contact(case, one, found),
             ..part
         })
     });

@@ -12,6 +12,7 @@ mod contact;
 mod cuts;
 pub(crate) mod gaps;
 pub(crate) mod general;
+mod heat;
 mod held;
 mod idealisation;
 mod info;
@@ -334,6 +335,8 @@ fn parts<'a>(
     parts.contacts = contact::contacts(case, names, &surfaces, own, found);
     let (temperature, start) = temperature::at_start(case, names, mesh, found);
     parts.temperature = temperature;
+    parts.radiation = heat::radiation(case);
+    heat::refuse_cuts(case, found);
     let steps = steps::Builder {
         case,
         names,

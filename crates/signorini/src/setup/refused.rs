@@ -347,6 +347,14 @@ fn of_load_error(error: &LoadError) -> (&'static Code, &'static str) {
             &codes::BAD_LOAD,
             "load nodes that lie around the axis of the moment, or a [reference] that they follow",
         ),
+        LoadError::NoConstants => (
+            &codes::MISSING,
+            "write  [constants] stefan_boltzmann = 5.67e-8, absolute_zero = -273.15  in the units of the case",
+        ),
+        LoadError::NoTemperatures => (
+            &codes::CONTRADICTION,
+            "write  kind = \"heat\"  or  kind = \"coupled\"  in its step",
+        ),
         LoadError::NoAxis | LoadError::OtherAxis => {
             (&codes::CONTRADICTION, "write  axis = \"y\"  through x = 0")
         }

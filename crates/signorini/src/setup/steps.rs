@@ -4,6 +4,7 @@ pub(super) use super::carriers::idle;
 
 use super::carriers::Carriers;
 use super::contact::Changes;
+use super::heat;
 use super::loads::{self, Coupling};
 use super::names::Names;
 use super::nonlinear::nonlinear;
@@ -53,17 +54,20 @@ impl Builder<'_> {
                 scheme: self.scheme(step, found),
                 control: step.dynamics.as_ref().and_then(|of| control(step, of)),
                 vibration: self.vibration(step, found),
+                physics: heat::physics(step),
                 changes: self.changes(step, found),
                 loads: self.loads(number, step, &mut couplings, found),
                 contacts: contacts.of(step, found),
                 temperatures: self.temperatures(step, found),
+                freed_temperatures: self.freed_temperatures(step, found),
                 activity: self.activity(step, &owned, found),
             };
             let motions = part.changes.len() + part.temperatures.len() + part.activity.len();
             let changes = motions + part.loads.len() + step.contacts.len();
             // overlaps at the start are resolved in the first step
             let has_contact = !self.case.contacts.is_empty() || self.case.general.is_some();
-            let moves = part.scheme.is_some() || part.vibration.is_some();
+            let moves =
+                part.scheme.is_some() || part.vibration.is_some() || part.physics.has_heat();
             let begins = number == 0 && has_contact || moves;
             if changes == 0 && !begins && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
@@ -141,6 +145,9 @@ impl Builder<'_> {
         let mut changes = Vec::new();
         for free in &step.frees {
             let turns = !free.rot.is_empty();
+            if free.u.is_empty() && !turns {
+                continue;
+            }
             if let Some(target) = self.target(&free.on, turns, &free.place, found) {
                 let components = picked(&free.u, &free.rot);
                 changes.push(Change::Release(target, components));
@@ -210,6 +217,13 @@ impl Builder<'_> {
             temperatures.extend(nodes.into_iter().map(|node| (node, part.value)));
         }
         temperatures
+    }
+
+    /// Nodes whose temperatures are set free.
+    fn freed_temperatures(&self, step: &Step, found: &mut Diagnostics) -> Vec<NodeId> {
+        let freed = step.frees.iter().filter(|free| free.temperature);
+        let nodes = freed.filter_map(|free| self.names.nodes(&free.on, found));
+        nodes.flatten().collect()
     }
 
     /// The cells of bodies, where steps ask for them.
@@ -297,7 +311,7 @@ impl Builder<'_> {
     fn motion(&self, step: &Step, course: &case::Motion) -> Motion {
         match course {
             // at once, as in other programs
-            case::Motion::Ramp(to) if step.dynamics.is_some() => Motion::Table(vec![[0.0, *to]]),
+            case::Motion::Ramp(to) if acts_at_once(step) => Motion::Table(vec![[0.0, *to]]),
             case::Motion::Ramp(to) => Motion::Ramp(*to),
             case::Motion::Table(table) => Motion::Table(table.clone()),
             case::Motion::Amplitude { name, value } => {
@@ -309,7 +323,7 @@ impl Builder<'_> {
 
     fn course(&self, step: &Step, course: &case::Course) -> Course {
         match course {
-            case::Course::Ramp if step.dynamics.is_some() => Course::Table(vec![[0.0, 1.0]]),
+            case::Course::Ramp if acts_at_once(step) => Course::Table(vec![[0.0, 1.0]]),
             case::Course::Ramp => Course::Ramp,
             case::Course::Table(table) => Course::Table(table.clone()),
             case::Course::Amplitude(name) => {
@@ -358,6 +372,11 @@ impl Builder<'_> {
         let function = self.own.courses.get(&name.value);
         function.map(|one| TimeFunction::from(Arc::clone(one)))
     }
+}
+
+/// Whether loads and motions of a step act at once, as in other programs: where time is more than an order.
+fn acts_at_once(step: &Step) -> bool {
+    step.dynamics.is_some() || step.thermal.is_some_and(|thermal| thermal.transient)
 }
 
 /// What another model prescribes: to each node its own displacement.

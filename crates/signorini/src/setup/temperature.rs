@@ -1,5 +1,6 @@
 //! Temperatures: at the start, and at the end of steps.
 
+use super::heat;
 use super::names::Names;
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{Case, Expansion, Material};
@@ -21,7 +22,8 @@ pub(super) fn at_start<'a>(
     let somewhere = case.initial_temperatures.first();
     let mut changes = case.steps.iter().flat_map(|step| &step.temperatures);
     let first = changes.next();
-    if expanding.is_empty() {
+    let is_solved = heat::first(case).is_some();
+    if expanding.is_empty() && !is_solved {
         let place = first.map(|one| &one.place).or(given.map(|one| &one.place));
         let place = place.or(somewhere.map(|one| &one.place));
         if let Some(place) = place {

@@ -233,10 +233,12 @@ fn press_and_slide(head: &[NodeId], flat: bool) -> Vec<StepPart> {
         scheme: None,
         control: None,
         vibration: None,
+        physics: signorini_mechanics::system::Physics::default(),
         changes: vec![Change::Prescribe(Target::Nodes(head.to_vec()), motions)],
         loads: Vec::new(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        freed_temperatures: Vec::new(),
         activity: Vec::new(),
     };
     let axes = if flat { vec![0] } else { vec![0, 2] };

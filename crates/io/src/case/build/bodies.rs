@@ -18,6 +18,18 @@ impl Builder<'_> {
     pub(super) fn material(&mut self, name: Name, fields: Fields<'_>, place: Place) -> Material {
         let model = fields.text("model");
         let law = self.vocabulary.material(&model.value).copied();
+        if !fields.has("model") && !fields.has("conductivity") && !fields.has_unknown_key() {
+            self.found.push(
+                Diagnostic::error(
+                    &codes::MISSING,
+                    format!(
+                        "[material.{}] has neither `model` nor `conductivity`",
+                        name.value
+                    ),
+                )
+                .at(&place, "`model` is missing here"),
+            );
+        }
         let constants = law
             .as_ref()
             .map(|law| self.constants(law, &name, fields, &place));
@@ -44,6 +56,7 @@ impl Builder<'_> {
                 stiffness: fields.table("damping").number("stiffness"),
             },
             expansion: fields.has("expansion").then(|| self.expansion(expansion)),
+            heat: self.conduction(fields),
             plasticity,
             model,
             place,
@@ -120,6 +133,77 @@ impl Builder<'_> {
             free: unstrained(fields, &reference),
             reference: reference.value,
         }
+    }
+
+    /// How a material conducts and stores heat.
+    fn conduction(&mut self, fields: Fields<'_>) -> Option<Conduction> {
+        for key in ["specific_heat", "latent_heat"] {
+            for needed in ["conductivity", "density"] {
+                if fields.has(key) && !fields.has(needed) {
+                    self.error(
+                        &codes::MISSING,
+                        format!("`{key}` without `{needed}`"),
+                        &fields.place(key),
+                        format!("write  {needed} = "),
+                    );
+                }
+            }
+        }
+        if !fields.has("conductivity") {
+            return None;
+        }
+        let of = fields.table("conductivity");
+        let along = of.row::<3>("along").and_then(|row| {
+            let [a, b, c] = row.map(|value| number(value.get_ref()));
+            Some([a?, b?, c?])
+        });
+        let conductivity = match along {
+            Some(along) => Conductivity::Along(along),
+            None if of.has("rows") => Conductivity::Full(self.increasing(of, "rows")),
+            None => Conductivity::Isotropic(self.constant_or_rows(fields, "conductivity")),
+        };
+        Some(Conduction {
+            conductivity,
+            specific_heat: self.constant_or_rows(fields, "specific_heat"),
+            latent_heat: (fields.rows("latent_heat"))
+                .filter_map(|row| numbers(row.get_ref()))
+                .collect(),
+            place: fields.place("conductivity"),
+        })
+    }
+
+    /// A number, or rows of temperature and number.
+    fn constant_or_rows(&mut self, fields: Fields<'_>, key: &'static str) -> Vec<[f64; 2]> {
+        match fields.number_if(key) {
+            Some(number) => vec![[0.0, number.value]],
+            None => self.increasing(fields, key),
+        }
+    }
+
+    /// Rows whose first numbers increase.
+    pub(super) fn increasing<const N: usize>(
+        &mut self,
+        fields: Fields<'_>,
+        key: &'static str,
+    ) -> Vec<[f64; N]> {
+        let mut rows: Vec<[f64; N]> = Vec::new();
+        for row in fields.rows(key) {
+            let Some(values) = numbers::<N>(row.get_ref()) else {
+                continue;
+            };
+            if let Some(before) = rows.last().filter(|before| values[0] <= before[0]) {
+                let remark = format!("{} comes after {}", values[0], before[0]);
+                self.error(
+                    &codes::NOT_INCREASING,
+                    format!("the first numbers of the rows of `{key}` do not increase"),
+                    &fields.at(row.span()),
+                    remark,
+                );
+                break;
+            }
+            rows.push(values);
+        }
+        rows
     }
 
     fn plasticity(&mut self, fields: Fields<'_>) -> Plasticity {
@@ -206,6 +290,7 @@ impl Builder<'_> {
             "area",
             "strain",
             "mass_matrix",
+            "capacity",
         ];
         let wrong = if rigid {
             &of_solids[..]
@@ -267,6 +352,7 @@ impl Builder<'_> {
                 "lumped" => MassMatrix::Lumped,
                 _ => MassMatrix::Auto,
             },
+            lumped_capacity: fields.text("capacity").value == "lumped",
             rigid,
             reference: fields.text_if("reference"),
             groups,

@@ -9,6 +9,18 @@ use signorini_vocabulary::{Chosen, Description};
 /// Rubber on dry concrete has about half of it.
 const ROUGH: f64 = 2.0;
 
+/// What becomes of the work of friction.
+fn friction_heat(fields: Fields<'_>) -> Option<FrictionHeat> {
+    if fields.flag_if("friction_heat") == Some(false) {
+        return None;
+    }
+    let of = fields.table("friction_heat");
+    Some(FrictionHeat {
+        fraction: of.number("fraction"),
+        to_secondary: of.number("to_secondary"),
+    })
+}
+
 fn damping(fields: Fields<'_>) -> Damping {
     Damping {
         normal: fields.number("normal"),
@@ -18,6 +30,47 @@ fn damping(fields: Fields<'_>) -> Damping {
 }
 
 impl Builder<'_> {
+    /// The ways that heat takes across a contact.
+    fn conductance(&mut self, fields: Fields<'_>) -> Vec<Conductance> {
+        if let Some(constant) = fields.number_if("conductance") {
+            return vec![Conductance::Constant(constant.value)];
+        }
+        let of = fields.table("conductance");
+        let mut paths = Vec::new();
+        paths.extend(
+            of.number_if("constant")
+                .map(|h| Conductance::Constant(h.value)),
+        );
+        for (key, make) in [
+            ("over_pressure", Conductance::OverPressure as fn(_) -> _),
+            ("over_gap", Conductance::OverGap),
+        ] {
+            if of.has(key) {
+                paths.push(make(self.increasing(of, key)));
+            }
+        }
+        if of.has("power") {
+            let power = of.table("power");
+            paths.push(Conductance::Power {
+                h0: power.number("h0"),
+                hardness: power.number("hardness"),
+                exponent: power.number("n"),
+            });
+        }
+        if of.has("gas") {
+            let gas = of.table("gas");
+            paths.push(Conductance::Gas {
+                conductivity: gas.number("k"),
+                jump: gas.number("jump"),
+            });
+        }
+        let emissivities = of.numbers_if("radiation");
+        if let Some([one, other]) = emissivities.as_deref().map(Vec::as_slice) {
+            paths.push(Conductance::Radiation([*one, *other]));
+        }
+        paths
+    }
+
     pub(super) fn contact(&mut self, fields: Fields<'_>, place: Place) -> Contact {
         let contact = Contact {
             name: fields.text("name"),
@@ -37,6 +90,9 @@ impl Builder<'_> {
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
             damping: damping(fields.table("damping")),
+            conductance: self.conductance(fields),
+            friction_heat: friction_heat(fields),
+            temperature: fields.number_if("temperature").map(|number| number.value),
             restitution: Spanned::new(fields.number("restitution"), fields.place("restitution")),
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,

@@ -134,6 +134,13 @@ impl Builder<'_> {
                 .map(|(fields, place)| self.constraint(fields, place))
                 .collect(),
             thicknesses: thicknesses_at(&root),
+            constants: root.has("constants").then(|| {
+                let constants = root.table("constants");
+                Constants {
+                    stefan_boltzmann: constants.number("stefan_boltzmann"),
+                    absolute_zero: constants.number("absolute_zero"),
+                }
+            }),
             initial_temperature: root.table("initial").number_if("temperature"),
             initial_temperatures: temperatures_at(root.table("initial")),
             initial_velocities: self.velocities_at(root.table("initial")),

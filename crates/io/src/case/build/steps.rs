@@ -90,6 +90,27 @@ impl Builder<'_> {
         })
     }
 
+    /// What a heat or coupled step does with temperatures.
+    fn thermal(&mut self, fields: Fields<'_>) -> Option<Thermal> {
+        let kind = fields.text("kind").value;
+        if !matches!(kind.as_str(), "heat" | "coupled") {
+            if fields.has("thermal") {
+                self.error(
+                    &codes::CONTRADICTION,
+                    "`thermal` belongs to heat and coupled steps",
+                    &fields.place("thermal"),
+                    "delete it, or write  kind = \"heat\"  or  kind = \"coupled\"",
+                );
+            }
+            return None;
+        }
+        let word = fields.text_if("thermal");
+        Some(Thermal {
+            coupled: kind == "coupled",
+            transient: word.is_some_and(|word| word.value == "transient"),
+        })
+    }
+
     /// The method of a dynamic step, with its number.
     fn dynamic_method(&mut self, table: Fields<'_>) -> DynamicMethod {
         let method = table.text("method").value;
@@ -203,6 +224,7 @@ impl Builder<'_> {
                 "nonlinear" => Geometry::Nonlinear,
                 _ => Geometry::Auto,
             },
+            thermal: self.thermal(fields),
             dynamics: self.dynamics(fields),
             frequency: self.frequency(fields),
             duration,
@@ -229,6 +251,7 @@ impl Builder<'_> {
                     on: one.text("on"),
                     u: self.directions(one, "u"),
                     rot: self.directions(one, "rot"),
+                    temperature: one.flag("temperature"),
                     place,
                 })
                 .collect(),

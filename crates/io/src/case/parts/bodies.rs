@@ -69,7 +69,7 @@ impl MaterialDamping {
 pub struct Material {
     /// Its name.
     pub name: Name,
-    /// Its law, as in `neo-hookean`.
+    /// Its law, as in `neo-hookean`; empty: it conducts heat alone.
     pub model: Spanned<String>,
     /// The constants of its law, those and no others, in the order of the law.
     pub constants: Vec<Constant>,
@@ -81,6 +81,8 @@ pub struct Material {
     pub damping: MaterialDamping,
     /// Thermal expansion.
     pub expansion: Option<Expansion>,
+    /// How it conducts and stores heat.
+    pub heat: Option<Conduction>,
     /// Yielding and hardening.
     pub plasticity: Option<Plasticity>,
     /// Where it was written.
@@ -102,6 +104,30 @@ pub struct Constant {
     pub name: &'static str,
     /// Its value, or several.
     pub values: Spanned<Vec<f64>>,
+}
+
+/// How a material conducts and stores heat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conduction {
+    /// What it conducts.
+    pub conductivity: Conductivity,
+    /// Rows of temperature, increasing, and heat per mass and temperature; one holds at all temperatures; none: it stores nothing.
+    pub specific_heat: Vec<[f64; 2]>,
+    /// Heat per mass, solidus and liquidus of changes of phase.
+    pub latent_heat: Vec<[f64; 3]>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// What a material conducts: heat per time, length and temperature.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Conductivity {
+    /// The same in all directions: rows of temperature, increasing, and conductivity; one holds at all temperatures.
+    Isotropic(Vec<[f64; 2]>),
+    /// Along the axes of the material.
+    Along([f64; 3]),
+    /// Rows of temperature, increasing, and 11, 22, 33, 12, 23, 13 in the axes of the material.
+    Full(Vec<[f64; 7]>),
 }
 
 /// Thermal expansion: strain `alpha(T) (T − reference)` in all directions, less what it is where it is to be none.
@@ -185,6 +211,8 @@ pub struct Body {
     pub small_strain: bool,
     /// Where its mass is in dynamic steps.
     pub mass_matrix: MassMatrix,
+    /// Whether it stores heat at nodes, not between them.
+    pub lumped_capacity: bool,
     /// Whether it moves as a whole.
     pub rigid: bool,
     /// The reference a rigid body moves with; none: a point of its own, in the mean of its nodes.

@@ -37,6 +37,12 @@ pub struct Contact {
     pub damping: Damping,
     /// The velocity with which points leave an impact, over that with which they came, where impulses act.
     pub restitution: Spanned<f64>,
+    /// Ways that heat takes across it; empty: none.
+    pub conductance: Vec<Conductance>,
+    /// What becomes of the work of friction; none: it is lost.
+    pub friction_heat: Option<FrictionHeat>,
+    /// The temperature of a rigid surface.
+    pub temperature: Option<f64>,
     /// How far points slide.
     pub sliding: Sliding,
     /// On what of the primary side points may rest.
@@ -78,6 +84,9 @@ impl Contact {
             remembers_traction: false,
             damping: Damping::default(),
             restitution: 0.0.into(),
+            conductance: Vec::new(),
+            friction_heat: Some(FrictionHeat::default()),
+            temperature: None,
             sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,
@@ -458,4 +467,51 @@ pub struct Damping {
     pub tangential: f64,
     /// Whether it may pull more than the law presses.
     pub pulls: bool,
+}
+
+/// A way that heat takes across a contact.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Conductance {
+    /// The same wherever it touches: heat per time, area and difference of temperatures.
+    Constant(f64),
+    /// Rows of pressure and that.
+    OverPressure(Vec<[f64; 2]>),
+    /// Rows of gap and that.
+    OverGap(Vec<[f64; 2]>),
+    /// A power of the pressure.
+    Power {
+        /// What it is at the hardness.
+        h0: f64,
+        /// A pressure.
+        hardness: f64,
+        /// The exponent.
+        exponent: f64,
+    },
+    /// Through a gas in the gap.
+    Gas {
+        /// Its conductivity.
+        conductivity: f64,
+        /// What is added to the gap.
+        jump: f64,
+    },
+    /// By radiation between surfaces of these emissivities.
+    Radiation([f64; 2]),
+}
+
+/// What becomes of the work of friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionHeat {
+    /// The part of it that becomes heat.
+    pub fraction: f64,
+    /// The part of that which the secondary side takes.
+    pub to_secondary: f64,
+}
+
+impl Default for FrictionHeat {
+    fn default() -> Self {
+        Self {
+            fraction: 1.0,
+            to_secondary: 0.5,
+        }
+    }
 }

@@ -65,6 +65,8 @@ pub struct Case {
     pub constraints: Vec<Constraint>,
     /// Temperature of everything at the start; none: where no material expands, or as the build finds it.
     pub initial_temperature: Option<Spanned<f64>>,
+    /// Constants of nature.
+    pub constants: Option<Constants>,
     /// Temperatures of parts at the start; of several that name a node the last holds.
     pub initial_temperatures: Vec<TemperatureAt>,
     /// Velocities of parts at the start; of several that name a node the last holds.

@@ -43,6 +43,8 @@ pub struct Step {
     pub name: Name,
     /// Whether displacements are small.
     pub geometry: Geometry,
+    /// What it does with temperatures, where they are unknown.
+    pub thermal: Option<Thermal>,
     /// How it goes through time, where inertia counts.
     pub dynamics: Option<Dynamics>,
     /// Which natural frequencies it finds; it then changes nothing but supports.
@@ -73,6 +75,24 @@ pub struct Step {
     pub prints: Option<Vec<Print>>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// What a step does with unknown temperatures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Thermal {
+    /// Whether bodies deform, too.
+    pub coupled: bool,
+    /// Whether they store heat.
+    pub transient: bool,
+}
+
+/// Constants of nature, in the units of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constants {
+    /// Heat per time and area of a black surface over its absolute temperature to the fourth power.
+    pub stefan_boltzmann: f64,
+    /// Absolute zero, on the scale of temperatures.
+    pub absolute_zero: f64,
 }
 
 /// How a step with inertia goes through time.
@@ -145,6 +165,7 @@ impl Step {
         Self {
             name,
             geometry: Geometry::Auto,
+            thermal: None,
             dynamics: None,
             frequency: None,
             duration: 1.0,
@@ -335,6 +356,8 @@ pub struct Free {
     pub u: Directions,
     /// Rotations set free.
     pub rot: Directions,
+    /// Whether temperatures that earlier steps gave are set free, too.
+    pub temperature: bool,
     /// Where it was written.
     pub place: Place,
 }

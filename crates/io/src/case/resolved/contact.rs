@@ -50,12 +50,17 @@ pub(super) fn contact(contact: &Contact) -> Entries {
             ]),
         ),
         ("restitution", (*contact.restitution).into()),
+        ("friction_heat", friction_heat(contact.friction_heat)),
         ("sliding", sliding.into()),
         ("features", features.into()),
         ("tied", contact.tied.as_ref().map_or(false.into(), tied)),
         ("reach", auto(contact.reach)),
         ("active", contact.active.into()),
     ];
+    if !contact.conductance.is_empty() {
+        entries.push(("conductance", conductance(&contact.conductance)));
+    }
+    entries.extend(contact.temperature.map(|t| ("temperature", t.into())));
     match *contact.method {
         Method::GaussPoint => entries.push(("rule", rule(contact.rule))),
         Method::NodeToNode => entries.extend([
@@ -269,4 +274,43 @@ pub(super) fn contact_change(change: &ContactChange) -> Entries {
     let friction = change.friction.as_ref();
     entries.extend(friction.map(|friction| ("friction", self::friction(friction.as_ref()))));
     entries
+}
+
+fn conductance(paths: &[Conductance]) -> Value {
+    let of = |path: &Conductance| -> (&'static str, Value) {
+        match path {
+            Conductance::Constant(h) => ("constant", (*h).into()),
+            Conductance::OverPressure(rows) => ("over_pressure", list(rows)),
+            Conductance::OverGap(rows) => ("over_gap", list(rows)),
+            Conductance::Power {
+                h0,
+                hardness,
+                exponent,
+            } => {
+                let entries = vec![
+                    ("h0", (*h0).into()),
+                    ("hardness", (*hardness).into()),
+                    ("n", (*exponent).into()),
+                ];
+                ("power", Value::Table(entries))
+            }
+            Conductance::Gas { conductivity, jump } => {
+                let entries = vec![("k", (*conductivity).into()), ("jump", (*jump).into())];
+                ("gas", Value::Table(entries))
+            }
+            Conductance::Radiation(emissivities) => {
+                ("radiation", list(emissivities.iter().copied()))
+            }
+        }
+    };
+    Value::Table(paths.iter().map(of).collect())
+}
+
+fn friction_heat(of: Option<FrictionHeat>) -> Value {
+    of.map_or(false.into(), |of| {
+        Value::Table(vec![
+            ("fraction", of.fraction.into()),
+            ("to_secondary", of.to_secondary.into()),
+        ])
+    })
 }

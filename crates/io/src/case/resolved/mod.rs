@@ -78,6 +78,13 @@ fn tree(case: &Case) -> Entries {
         ("contact", contacts(case)),
         ("constraint", tables(&case.constraints, constraint)),
     ]);
+    entries.extend(case.constants.map(|constants| {
+        let constants = vec![
+            ("stefan_boltzmann", constants.stefan_boltzmann.into()),
+            ("absolute_zero", constants.absolute_zero.into()),
+        ];
+        ("constants", Value::Table(constants))
+    }));
     let initial = initial(case);
     if !initial.is_empty() {
         entries.push(("initial", Value::Table(initial)));

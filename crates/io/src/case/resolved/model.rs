@@ -192,7 +192,10 @@ pub(super) fn initial(case: &Case) -> Entries {
 }
 
 pub(super) fn material(one: &Material) -> Entries {
-    let mut entries = vec![("model", (&one.model.value).into())];
+    let mut entries = Entries::new();
+    if !one.model.value.is_empty() {
+        entries.push(("model", (&one.model.value).into()));
+    }
     entries.extend(one.constants.iter().map(|constant| {
         let values = match constant.values.as_slice() {
             [value] => (*value).into(),
@@ -229,8 +232,33 @@ pub(super) fn material(one: &Material) -> Entries {
         }
         ("expansion", Value::Table(entries))
     }));
+    entries.extend(one.heat.iter().flat_map(conduction));
     let plasticity = one.plasticity.as_ref();
     entries.extend(plasticity.map(|one| ("plasticity", Value::Table(self::plasticity(one)))));
+    entries
+}
+
+/// A number where one holds at all temperatures, else rows.
+fn by_temperature(rows: &[[f64; 2]]) -> Value {
+    match rows {
+        [[_, only]] => (*only).into(),
+        rows => list(rows),
+    }
+}
+
+fn conduction(one: &Conduction) -> Entries {
+    let conductivity = match &one.conductivity {
+        Conductivity::Isotropic(rows) => by_temperature(rows),
+        Conductivity::Along(along) => Value::Table(vec![("along", along.into())]),
+        Conductivity::Full(rows) => Value::Table(vec![("rows", list(rows))]),
+    };
+    let mut entries = vec![("conductivity", conductivity)];
+    if !one.specific_heat.is_empty() {
+        entries.push(("specific_heat", by_temperature(&one.specific_heat)));
+    }
+    if !one.latent_heat.is_empty() {
+        entries.push(("latent_heat", list(&one.latent_heat)));
+    }
     entries
 }
 
@@ -340,8 +368,9 @@ pub(super) fn body(body: &Body) -> Entries {
     entries.extend([
         ("strain", strain.into()),
         ("mass_matrix", mass_matrix.into()),
-        ("rigid", false.into()),
     ]);
+    entries.extend(body.lumped_capacity.then(|| ("capacity", "lumped".into())));
+    entries.push(("rigid", false.into()));
     entries
 }
 

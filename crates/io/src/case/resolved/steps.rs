@@ -23,10 +23,12 @@ pub(super) fn step(step: &Step) -> Entries {
         Geometry::Linear => "linear",
         Geometry::Nonlinear => "nonlinear",
     };
-    let kind = match (&step.dynamics, &step.frequency) {
-        (Some(_), _) => "dynamic",
-        (None, Some(_)) => "frequency",
-        (None, None) => "static",
+    let kind = match (&step.dynamics, &step.frequency, step.thermal) {
+        (Some(_), ..) => "dynamic",
+        (None, Some(_), _) => "frequency",
+        (None, None, Some(thermal)) if thermal.coupled => "coupled",
+        (None, None, Some(_)) => "heat",
+        (None, None, None) => "static",
     };
     let name = ("name", (&step.name.value).into());
     let supports = [
@@ -36,7 +38,11 @@ pub(super) fn step(step: &Step) -> Entries {
         ),
         (
             "free",
-            tables(&step.frees, |one| held(&one.on, one.u, one.rot)),
+            tables(&step.frees, |one| {
+                let mut entries = held(&one.on, one.u, one.rot);
+                entries.extend(one.temperature.then(|| ("temperature", true.into())));
+                entries
+            }),
         ),
     ];
     if let Some(one) = &step.frequency {
@@ -66,6 +72,13 @@ pub(super) fn step(step: &Step) -> Entries {
         ("deactivate", tables(&step.deactivations, deactivation)),
         ("temperature", tables(&step.temperatures, temperature)),
     ];
+    entries.extend(step.thermal.map(|thermal| {
+        let word = match thermal.transient {
+            true => "transient",
+            false => "steady",
+        };
+        ("thermal", word.into())
+    }));
     entries.extend(step.dynamics.as_ref().map(|dynamics| {
         let (method, number) = match dynamics.method {
             DynamicMethod::GeneralizedAlpha(rho_inf) => {

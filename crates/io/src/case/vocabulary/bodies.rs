@@ -7,12 +7,43 @@ pub(super) static MATERIAL: Table = Table {
     heading: "[material.NAME]",
     doc: "materials",
     keys: &[
-        key("model", Shape::Choice(&[]), "the law")
-            .required()
-            .hints(&["law", "type"]),
+        key(
+            "model",
+            Shape::Choice(&[]),
+            "the law; absent: of bodies that conduct heat and never deform",
+        )
+        .hints(&["law", "type"]),
         key("density", POSITIVE, "mass per volume").hints(&["rho"]),
         key("damping", Shape::Table(&DAMPING), DAMPING.doc),
         key("expansion", Shape::Table(&EXPANSION), EXPANSION.doc).hints(&["thermal_expansion"]),
+        key(
+            "conductivity",
+            Shape::Either(&[
+                POSITIVE,
+                Shape::List(&Shape::Row("[temperature, k]", &[ANY, POSITIVE]), 1, MANY),
+                Shape::Table(&CONDUCTIVITY),
+            ]),
+            "heat per time, length and temperature; or rows [temperature, k], linear between, constant outside; or by direction",
+        )
+        .hints(&["k", "thermal_conductivity"]),
+        key(
+            "specific_heat",
+            Shape::Either(&[
+                POSITIVE,
+                Shape::List(&Shape::Row("[temperature, c]", &[ANY, POSITIVE]), 1, MANY),
+            ]),
+            "heat per mass and temperature; or rows [temperature, c], linear between, constant outside; next to a density",
+        )
+        .hints(&["heat_capacity"]),
+        key(
+            "latent_heat",
+            Shape::List(
+                &Shape::Row("[heat, solidus, liquidus]", &[POSITIVE, ANY, ANY]),
+                1,
+                MANY,
+            ),
+            "rows [heat per mass, solidus, liquidus] of changes of phase",
+        ),
         key("plasticity", Shape::Table(&PLASTICITY), PLASTICITY.doc).hints(&[
             "plastic",
             "yield",
@@ -41,6 +72,30 @@ static DAMPING: Table = Table {
         .hints(&["beta"]),
     ],
     rules: &[],
+};
+pub(super) static CONDUCTIVITY: Table = Table {
+    heading: "conductivity",
+    doc: "conductivity by direction, along the axes of the material",
+    keys: &[
+        key(
+            "along",
+            Shape::Row("[k1, k2, k3]", &[POSITIVE, POSITIVE, POSITIVE]),
+            "along the three axes",
+        ),
+        key(
+            "rows",
+            Shape::List(
+                &Shape::Row(
+                    "[temperature, k11, k22, k33, k12, k23, k13]",
+                    &[ANY, POSITIVE, POSITIVE, POSITIVE, ANY, ANY, ANY],
+                ),
+                1,
+                MANY,
+            ),
+            "rows [temperature, k11, k22, k33, k12, k23, k13]",
+        ),
+    ],
+    rules: &[Rule::ExactlyOne(&["along", "rows"])],
 };
 static EXPANSION: Table = Table {
     heading: "expansion",
@@ -171,6 +226,12 @@ pub(super) static BODY: Table = Table {
             "where its mass is in dynamic steps: between the nodes of elements, or at these; auto: consistent",
         )
         .or(Default::Text("auto")),
+        key(
+            "capacity",
+            Shape::Choice(&[word("consistent"), word("lumped")]),
+            "where it stores heat: between the nodes of elements, or at these, which never overshoots",
+        )
+        .or(Default::Text("consistent")),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(
             "reference",

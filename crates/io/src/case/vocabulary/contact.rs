@@ -87,6 +87,24 @@ pub(super) static CONTACT: Table = Table {
         )
         .or(Default::Number(0.0)),
         key(
+            "conductance",
+            Shape::Either(&[NOT_NEGATIVE, Shape::Table(&CONDUCTANCE)]),
+            "heat per time, area and difference of temperatures of what touches; or the ways that heat takes, which add up; absent: none",
+        )
+        .hints(&["gap_conductance"]),
+        key(
+            "friction_heat",
+            Shape::Either(&[Shape::Flag, Shape::Table(&FRICTION_HEAT)]),
+            "whether friction heats the sides, in half each where nothing else is said",
+        )
+        .or(Default::Flag(true))
+        .hints(&["frictional_heat"]),
+        key(
+            "temperature",
+            ANY,
+            "the temperature of a rigid surface; absent: it neither gives nor takes heat",
+        ),
+        key(
             "sliding",
             Shape::Choice(&[word("auto"), word("finite"), word("increment"), word("small")]),
             "how far points slide: any way; or each keeps the tangent plane it meets at the start of the increment, or first. auto: \"small\" in linear geometry, else \"finite\"",
@@ -201,6 +219,107 @@ const FRICTION_KEY: Key = key(
     "coefficient of friction, or a table of what limits it",
 )
 .hints(&["mu"]);
+
+static CONDUCTANCE: Table = Table {
+    heading: "conductance",
+    doc: "ways that heat takes across a contact, up to its reach: heat per time, area and difference of temperatures",
+    keys: &[
+        key("constant", NOT_NEGATIVE, "of what touches"),
+        key(
+            "over_pressure",
+            Shape::List(
+                &Shape::Row("[pressure, h]", &[NOT_NEGATIVE, NOT_NEGATIVE]),
+                1,
+                MANY,
+            ),
+            "rows [pressure, h] of what touches, linear between, constant outside",
+        ),
+        key(
+            "over_gap",
+            Shape::List(&Shape::Row("[gap, h]", &[ANY, NOT_NEGATIVE]), 1, MANY),
+            "rows [gap, h], linear between, constant before the first and 0 beyond the last",
+        ),
+        key("power", Shape::Table(&POWER), POWER.doc),
+        key("gas", Shape::Table(&GAS), GAS.doc),
+        key(
+            "radiation",
+            Shape::Row("[emissivity, emissivity]", &[EMISSIVITY, EMISSIVITY]),
+            "between parallel grey surfaces with these emissivities, with the [constants] of the case",
+        ),
+    ],
+    rules: &[Rule::AtLeastOne(&[
+        "constant",
+        "over_pressure",
+        "over_gap",
+        "power",
+        "gas",
+        "radiation",
+    ])],
+};
+
+const EMISSIVITY: Shape = Shape::Number(Bounds {
+    above: Some(0.0),
+    to: Some(1.0),
+    ..FREE
+});
+
+static POWER: Table = Table {
+    heading: "power",
+    doc: "h0 (pressure/hardness)^n",
+    keys: &[
+        key("h0", POSITIVE, "h where the pressure is the hardness").required(),
+        key("hardness", POSITIVE, "a pressure")
+            .required()
+            .hints(&["at"]),
+        key(
+            "n",
+            POSITIVE,
+            "the exponent; 0.95 after Cooper, Mikic and Yovanovich",
+        )
+        .or(Default::Number(0.95)),
+    ],
+    rules: &[],
+};
+
+static GAS: Table = Table {
+    heading: "gas",
+    doc: "k/(gap + jump), of a gas or a fluid between the sides",
+    keys: &[
+        key("k", POSITIVE, "its conductivity").required(),
+        key("jump", POSITIVE, "a length that is added to the gap")
+            .required()
+            .hints(&["g0"]),
+    ],
+    rules: &[],
+};
+
+static FRICTION_HEAT: Table = Table {
+    heading: "friction_heat",
+    doc: "what becomes of the work of friction",
+    keys: &[
+        key(
+            "fraction",
+            Shape::Number(Bounds {
+                from: Some(0.0),
+                to: Some(1.0),
+                ..FREE
+            }),
+            "the part of it that becomes heat",
+        )
+        .or(Default::Number(1.0)),
+        key(
+            "to_secondary",
+            Shape::Number(Bounds {
+                from: Some(0.0),
+                to: Some(1.0),
+                ..FREE
+            }),
+            "the part of that which the secondary side takes",
+        )
+        .or(Default::Number(0.5)),
+    ],
+    rules: &[],
+};
 
 static DAMPING: Table = Table {
     heading: "damping",

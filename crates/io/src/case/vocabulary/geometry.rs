@@ -159,6 +159,22 @@ pub(super) const AXES_RULES: &[Rule] = &[
     Rule::Needs("to", "from"),
 ];
 
+pub(super) static CONSTANTS: Table = Table {
+    heading: "[constants]",
+    doc: "constants of nature, in the units of the case: radiation needs them",
+    keys: &[
+        key(
+            "stefan_boltzmann",
+            POSITIVE,
+            "heat per time and area of a black surface over its absolute temperature to the fourth power",
+        )
+        .required()
+        .hints(&["sigma"]),
+        key("absolute_zero", ANY, "absolute zero, on the scale of temperatures").required(),
+    ],
+    rules: &[],
+};
+
 pub(super) static INITIAL: Table = Table {
     heading: "[initial]",
     doc: "fields at the start",

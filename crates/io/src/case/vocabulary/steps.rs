@@ -28,11 +28,24 @@ pub(super) static STEP: Table = Table {
         key("name", Shape::Text, "its name, in results and messages").required(),
         key(
             "kind",
-            Shape::Choice(&[word("static"), word("dynamic"), word("frequency")]),
-            "the kind of analysis: equilibrium, a motion in time with inertia, or natural frequencies about the state that \
-             earlier steps lead to, which stays as it is",
+            Shape::Choice(&[
+                word("static"),
+                word("dynamic"),
+                word("frequency"),
+                word("heat"),
+                word("coupled"),
+            ]),
+            "the kind of analysis: equilibrium, a motion in time with inertia, natural frequencies about the state that \
+             earlier steps lead to, which stays as it is, temperatures alone, or equilibrium and temperatures together",
         )
         .or(Default::Text("static")),
+        key(
+            "thermal",
+            Shape::Choice(&[word("steady"), word("transient")]),
+            "of heat and coupled steps: heat in equilibrium, or stored by bodies as time passes; loads and temperatures then act \
+             at once unless they have a table or an amplitude",
+        )
+        .hints(&["steady", "transient"]),
         key("dynamics", Shape::Table(&DYNAMICS), DYNAMICS.doc),
         key("frequency", Shape::Table(&FREQUENCY), FREQUENCY.doc).hints(&["modal", "modes", "eigen"]),
         key(
@@ -272,8 +285,14 @@ pub(super) static FREE_TABLE: Table = Table {
             "rotations set free, of a reference or rigid body",
         )
         .hints(&["rotation", "r"]),
+        key(
+            "temperature",
+            Shape::Flag,
+            "whether temperatures that earlier steps gave are set free",
+        )
+        .or(Default::Flag(false)),
     ],
-    rules: &[Rule::AtLeastOne(&["u", "rot"])],
+    rules: &[Rule::AtLeastOne(&["u", "rot", "temperature"])],
 };
 
 pub(super) static MOVE: Table = Table {
@@ -463,7 +482,7 @@ static DEACTIVATE: Table = Table {
 
 static TEMPERATURE: Table = Table {
     heading: "[[step.temperature]]",
-    doc: "temperatures, reached linearly over the step; others stay",
+    doc: "temperatures, reached linearly over the step, and at once in transient ones; others stay, or are unknown in heat and coupled steps",
     keys: &[
         key("on", Shape::Text, "the set or group; \"all\" is everything")
             .required()

@@ -2,7 +2,7 @@
 
 use super::bodies::{BODY, CONSTRAINT, MASS, MATERIAL, NAMED_ORIENTATION, SPRING};
 use super::contact::CONTACT;
-use super::geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET, THICKNESS};
+use super::geometry::{AXES, CONSTANTS, INITIAL, MESH, MODEL, REFERENCE, SET, THICKNESS};
 use super::run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
 use super::steps::{AMPLITUDE, STEP};
 use super::surface::SURFACE;
@@ -34,6 +34,7 @@ pub(super) static CASE: Table = Table {
         key("spring", Shape::Tables(&SPRING), SPRING.doc).hints(&["springs"]),
         key("constraint", Shape::Tables(&CONSTRAINT), CONSTRAINT.doc)
             .hints(&["constraints", "coupling", "equation", "mpc", "tie"]),
+        key("constants", Shape::Table(&CONSTANTS), CONSTANTS.doc),
         key("initial", Shape::Table(&INITIAL), INITIAL.doc),
         key("step", Shape::Tables(&STEP), STEP.doc).required().hints(&["steps"]),
         key("solver", Shape::Table(&SOLVER), SOLVER.doc),

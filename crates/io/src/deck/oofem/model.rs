@@ -306,6 +306,7 @@ impl Translation {
             density: density.map(|d| Spanned::new(d, record.place_of_field("d"))),
             damping: MaterialDamping::default(),
             expansion: None,
+            heat: None,
             plasticity,
             place,
         }))
@@ -384,6 +385,7 @@ impl Translation {
                 area: is_bar.then(|| Spanned::from(section.area)),
                 small_strain: small,
                 mass_matrix: Default::default(),
+                lumped_capacity: false,
                 rigid: false,
                 reference: None,
                 place: Place::nowhere(),

@@ -25,6 +25,7 @@ mod restless;
 mod reversals;
 mod rows;
 mod term;
+mod thermal;
 mod weighted;
 
 pub use inherited::inherit;
@@ -32,6 +33,8 @@ pub use near::closest_points;
 pub use parts::{
     Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, nmultiplier,
 };
+
+pub use thermal::{ContactHeat, FrictionHeat};
 
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;
@@ -53,6 +56,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
+use thermal::ThermalScratch;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
 pub struct Interface {
@@ -132,6 +136,7 @@ struct Scratch {
     spread: Vec<f64>,
     derivatives: Derivatives,
     asked: Asked,
+    thermal: ThermalScratch,
 }
 
 impl Interface {

@@ -262,7 +262,7 @@ impl Interface {
             laws.law.pressure(gap, most, laws.scale) != Eval::default()
         };
         let soon = || gap < 0.25 * self.reach_of(row, pair, &trial.placement())[0];
-        laws.bond || soon() || acts()
+        laws.bond || soon() || acts() || self.conducts_at(gap)
     }
 
     /// The facets that a row meets and that of its anchor, each once.
@@ -298,7 +298,7 @@ impl Interface {
         let many = averaged.is_some();
         let is_present = self.phase().is_none_or(|phase| phase.present);
         // without friction a row of one closest point sees one facet at a time
-        let at_once = many || self.laws().slips();
+        let at_once = many || self.laws().slips() || self.heat().is_some();
         let (mut dofs, mut of_row, mut facets) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..self.now.pairs.len() {
             let coupled = if is_present {
@@ -347,6 +347,7 @@ impl Interface {
                 dofs.sort_unstable();
                 dofs.dedup();
                 out.interface(&dofs);
+                self.couple_heat(&dofs, out);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! What an interface is made from.
 
+use super::thermal::ContactHeat;
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{ContactLaw, Damping, Penalty, Scale};
@@ -104,6 +105,8 @@ pub struct InterfaceParts {
     pub allowance: Allowance,
     /// What damps the motion of closed rows, of laws without a multiplier.
     pub damping: Damping,
+    /// How heat goes across it, where temperatures are unknowns.
+    pub heat: Option<ContactHeat>,
     /// Whether no side yields.
     pub is_rigid: bool,
     /// The velocity of rows that leave an impact over that with which they came, where impulses act.
@@ -154,6 +157,7 @@ impl InterfaceParts {
                 length: 1.0,
             },
             shifts: Vec::new(),
+            heat: None,
             is_rigid: false,
             allowance: Allowance::default(),
             damping: Damping::default(),

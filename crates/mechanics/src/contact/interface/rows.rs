@@ -105,7 +105,7 @@ impl Interface {
         };
         let wanted = Wanted {
             order,
-            slip: (laws.slips() || self.drags()) && order != RowOrder::Gap,
+            slip: (laws.slips() || self.drags() || self.heat().is_some()) && order != RowOrder::Gap,
         };
         let links = Links {
             pairing: &self.now,
@@ -399,7 +399,7 @@ impl Interface {
     }
 
     /// The rounding error of the forces of a row: that of the positions times the stiffness of the law.
-    fn rounding(&self, rows: &Rows, trial: &State, answer: Option<&Answer>) -> f64 {
+    pub(super) fn rounding(&self, rows: &Rows, trial: &State, answer: Option<&Answer>) -> f64 {
         let size = |p: &Participant| match *p {
             Participant::Node(node) => trial.x.get(node as usize).map_or(0.0, |x| x.max_abs()),
             Participant::Rigid(body) => {

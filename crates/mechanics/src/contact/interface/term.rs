@@ -25,7 +25,7 @@ impl Term for Interface {
         // with inertia, weights that turn are those of one state, and gaps those of another
         let turns = self.step.scheme.is_some() && !capabilities.keeps();
         let is_symmetric = capabilities.is_symmetric && !turns;
-        let symmetry = if rubs || tractions || !is_symmetric {
+        let symmetry = if rubs || tractions || !is_symmetric || self.couples_heat() {
             Symmetry::Unsymmetric
         } else if self.nmultiplier() > 0 {
             Symmetry::Symmetric
@@ -81,6 +81,7 @@ impl Term for Interface {
         self.ask(share.clone(), trial, &mut scratch.rows, &mut asked)?;
         for (row, answer) in share.zip(asked.answers()) {
             self.act((row, answer), trial, order, scratch, out)?;
+            self.conduct((row, answer), trial, order, scratch, out)?;
         }
         scratch.asked = asked;
         if chunk == 0 {

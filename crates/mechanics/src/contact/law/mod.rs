@@ -17,6 +17,8 @@
 //! | [`Lagrange`] | unknown | λ where λ > cg, else 0 | (⟨λ − cg⟩ − λ)/c |
 //! | `Impulse`, of explicit steps | given | ⟨λ⟩ | |
 //!
+//! What heat flows between the sides is a law of its own, [`Conductance`].
+//!
 //! Laws hold no state and have never heard of a degree of freedom. The sign of c makes ∂c/∂u the transpose of ∂r/∂λ.
 //! [`Lagrange`] is the primal-dual active set; its c > 0 changes the way to the solution and not the solution.
 //!
@@ -26,6 +28,7 @@
 
 mod arctangent;
 mod augmented;
+mod conductance;
 mod damping;
 mod definition;
 mod exponential;
@@ -39,6 +42,7 @@ mod tests;
 
 pub use arctangent::Arctangent;
 pub use augmented::{AugmentedNewton, Uzawa};
+pub use conductance::{Between, Conductance, Conducted};
 pub use damping::Damping;
 use definition::TOUCH;
 pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};

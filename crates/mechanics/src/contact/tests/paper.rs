@@ -71,6 +71,7 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
             scheme: None,
             control: None,
             vibration: None,
+            physics: crate::system::Physics::default(),
             changes: vec![
                 Change::Prescribe(Target::Nodes((0..4).collect()), [0, 1, 2].map(held).into()),
                 Change::Prescribe(Target::Rigid(0), vec![(2, Motion::Ramp(-0.3))]),
@@ -78,6 +79,7 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)

@@ -41,6 +41,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                 scheme: None,
                 control: None,
                 vibration: None,
+                physics: crate::system::Physics::default(),
                 changes: if number == 0 {
                     vec![support]
                 } else {
@@ -49,6 +50,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                 loads: loads.into_iter().map(load).collect(),
                 contacts: Vec::new(),
                 temperatures: Vec::new(),
+                freed_temperatures: Vec::new(),
                 activity: Vec::new(),
             }
         });

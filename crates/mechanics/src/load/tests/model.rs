@@ -42,10 +42,12 @@ fn step_with(changes: Vec<Change>, loads: Vec<Acting>, nonlinear: bool) -> StepP
         scheme: None,
         control: None,
         vibration: None,
+        physics: crate::system::Physics::default(),
         changes,
         loads: loads.into_iter().enumerate().map(part).collect(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        freed_temperatures: Vec::new(),
         activity: Vec::new(),
     }
 }

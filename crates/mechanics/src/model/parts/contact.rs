@@ -1,9 +1,9 @@
 //! Contacts, as plain data.
 
-use crate::contact::Measure;
 use crate::contact::discretization::{SlidingRange, mortar};
 use crate::contact::friction::{Coulomb, FrictionLaw};
 use crate::contact::law::{ContactLaw, Damping};
+use crate::contact::{ContactHeat, Measure};
 use crate::system::ReportedAs;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
@@ -259,6 +259,8 @@ pub struct ContactPart {
     pub damping: Damping,
     /// The velocity with which points leave an impact, over that with which they came, where impulses act.
     pub restitution: f64,
+    /// How heat goes across it, where temperatures are unknowns.
+    pub heat: Option<ContactHeat>,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -329,6 +331,7 @@ impl ContactPart {
             measure: None,
             damping: Damping::default(),
             restitution: 0.0,
+            heat: None,
             friction: None,
             remembers_traction: false,
             sliding: SlidingRange::default(),

@@ -6,14 +6,14 @@ pub use contact::*;
 
 use super::ControlPart;
 use crate::connector::SpringLaw;
-use crate::load::{Acting, Course};
-use crate::material::Material;
-use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes};
+use crate::load::{Acting, Course, RadiationConstants};
+use crate::material::{Conductor, Material};
+use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes, Storage};
 use crate::solve::{Increments, Motion, Vibration};
-use crate::system::{CellChange, Idealisation, Scheme};
+use crate::system::{CellChange, Idealisation, Physics, Scheme};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
-use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
 /// Everything a model is made of.
@@ -34,6 +34,8 @@ pub struct Parts<'a> {
     pub contacts: Vec<ContactPart>,
     /// Temperature of each node at the start; empty where no step and no material speaks of temperatures.
     pub temperature: Vec<f64>,
+    /// The constants of radiation, where they are known.
+    pub radiation: Option<RadiationConstants>,
     /// Velocity of each node of the mesh at the start; empty where nothing moves.
     pub velocity: Vec<Vec3>,
     /// Masses at nodes.
@@ -67,6 +69,7 @@ impl<'a> Parts<'a> {
             constraints: Vec::new(),
             contacts: Vec::new(),
             temperature: Vec::new(),
+            radiation: None,
             velocity: Vec::new(),
             masses: Vec::new(),
             carrier_masses: Vec::new(),
@@ -99,6 +102,17 @@ pub struct MassPart {
     pub damping: f64,
     /// Viscous stress over the initial stiffness of its material and the rate of strain (time).
     pub retardation: f64,
+}
+
+/// How a body conducts and stores heat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatPart {
+    /// What conducts.
+    pub conductor: Conductor,
+    /// Axes of a conductor with directions, as columns.
+    pub axes: Mat3,
+    /// Where heat is stored.
+    pub storage: Storage,
 }
 
 /// A body.
@@ -141,6 +155,8 @@ pub enum BodyKind {
         initial: Vec<AtStart>,
         /// Axes of a material that takes those of points; none: those of the frame.
         axes: Option<Box<MaterialAxes>>,
+        /// How it conducts and stores heat, where temperatures are unknowns.
+        heat: Option<Box<HeatPart>>,
     },
     /// Bars that carry normal force only: cells of lines.
     Truss {
@@ -181,6 +197,7 @@ impl BodyKind {
             at_nodes: AtNodes::default(),
             initial: Vec::new(),
             axes: None,
+            heat: None,
         }
     }
 
@@ -434,14 +451,19 @@ pub struct StepPart {
     pub control: Option<ControlPart>,
     /// Which natural modes are found in it; it then takes no time.
     pub vibration: Option<Vibration>,
+    /// What is unknown in it.
+    pub physics: Physics,
     /// Changes of supports and motions; everything else stays.
     pub changes: Vec<Change>,
     /// Loads that begin or change here.
     pub loads: Vec<LoadPart>,
     /// Contacts that change when it begins.
     pub contacts: Vec<ContactChange>,
-    /// Temperatures that nodes reach linearly over the step; others keep theirs.
+    /// Temperatures that nodes reach: linearly over the step, and at once where bodies store heat; others keep theirs, or are free
+    /// where temperatures are unknown.
     pub temperatures: Vec<(NodeId, f64)>,
+    /// Nodes whose temperatures are free again from its beginning on.
+    pub freed_temperatures: Vec<NodeId>,
     /// Cells that take part again, or no longer, from its beginning on.
     pub activity: Vec<ActivityPart>,
 }
@@ -458,10 +480,12 @@ impl StepPart {
             scheme: None,
             control: None,
             vibration: None,
+            physics: Physics::default(),
             changes: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }
     }

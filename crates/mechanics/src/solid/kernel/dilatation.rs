@@ -25,7 +25,7 @@
 use super::dense;
 use super::element::{Element, Failure, Output};
 use super::gradient::{Place, deformation, displacement_gradient, place, position, row, strain};
-use super::stiffness::{add_force, add_stiffness, contract};
+use super::stiffness::{add_force, add_stiffness, add_thermal, contract};
 use crate::material::{Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
@@ -236,6 +236,9 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
             symmetric,
         };
         let pressure = stretched.add(&here, &response, order, out);
+        if !out.thermal.is_empty() {
+            stretched.add_thermal(&here, &response, element.reference.thermal(point), out);
+        }
         pressures.add(point, &here, pressure, out);
     }
     if finite && !out.stiffness.is_empty() {
@@ -319,6 +322,29 @@ impl<const NN: usize, const ND: usize> Stretched<NN, ND> {
             }
         }
         pressure
+    }
+}
+
+impl<const NN: usize, const ND: usize> Stretched<NN, ND> {
+    /// Adds the derivative of (E7) with respect to temperatures of the nodes, which have these shape functions.
+    fn add_thermal<const NG: usize>(
+        &self,
+        here: &Dilated<NN, ND, NG>,
+        response: &Response,
+        shape: &[f64],
+        out: &mut Output<'_>,
+    ) {
+        let (gradient, weight) = (&here.at.gradient, here.at.weight);
+        let stress = response.thermal * self.square;
+        let force = contract::<NN, ND, NG>(gradient, &here.f, &stress);
+        add_thermal(out.thermal, weight, force.as_flattened(), shape);
+        let pressure = stress.double_dot(self.metric);
+        add_thermal(
+            out.thermal,
+            weight * pressure,
+            self.dm.as_flattened(),
+            shape,
+        );
     }
 }
 

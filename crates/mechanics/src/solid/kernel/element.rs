@@ -58,6 +58,8 @@ pub(in crate::solid) struct Output<'a> {
     /// Row-major; empty where it is not wanted. Of a law that is symmetric the blocks `(I, J)` of nodes with `I ≤ J`.
     pub stiffness: &'a mut [f64],
     pub energy: f64,
+    /// Stiffness against temperatures of the nodes, row-major; empty where it is not wanted.
+    pub thermal: &'a mut [f64],
     /// History at the end of the increment.
     pub new: &'a mut [f64],
     /// What is known at the quadrature points; empty where it is not wanted.
@@ -71,6 +73,7 @@ impl Output<'_> {
         self.energy = 0.0;
         self.force.fill(0.0);
         self.stiffness.fill(0.0);
+        self.thermal.fill(0.0);
     }
 }
 

@@ -24,7 +24,7 @@ use super::element::{Element, Failure, Output};
 use super::gradient::{
     deformation, displacement_gradient, inverse, jacobian, place, position, strain,
 };
-use super::stiffness::{add_force, add_stiffness, contract, mirror};
+use super::stiffness::{add_force, add_stiffness, add_thermal, contract, mirror};
 use crate::material::{MaterialError, Order, Response};
 
 /// Newton steps before it is given up.
@@ -61,14 +61,17 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
     } else {
         nmode
     };
-    let nright = if wants_nodes { 1 + n } else { 1 };
-    // samples are those of modes in equilibrium
-    let is_exact = element.material.linearity().is_linear() && out.samples.is_empty();
+    let nheat = out.thermal.len() / n;
+    let nright = if wants_nodes { 1 + n + nheat } else { 1 };
+    // samples, and what forces are against temperatures, are those of modes in equilibrium
+    let is_exact = element.material.linearity().is_linear() && out.samples.is_empty() && nheat == 0;
     let mut scratch = std::mem::take(out.scratch);
-    scratch.resize(total + total * total + nmode * (nmode + nright), 0.0);
+    let room = total + total * total + nmode * (nmode + nright) + total * nheat;
+    scratch.resize(room, 0.0);
     let (force, rest) = scratch.split_at_mut(total);
     let (stiffness, rest) = rest.split_at_mut(total * total);
-    let (inner, solution) = rest.split_at_mut(nmode * nmode);
+    let (inner, rest) = rest.split_at_mut(nmode * nmode);
+    let (solution, thermal) = rest.split_at_mut(nmode * nright);
     let stiffness = &mut stiffness[..nrow * total];
     let mut outcome = Err(Failure::Material(MaterialError::NotConverged {
         what: "equilibrium of its incompatible modes",
@@ -78,6 +81,7 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
             force: &mut *force,
             stiffness: &mut *stiffness,
             energy: 0.0,
+            thermal: &mut *thermal,
             new: &mut *out.new,
             samples: &mut *out.samples,
             scratch: &mut *out.scratch,
@@ -90,13 +94,17 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
             }
         };
         out.energy = local.energy;
-        // K_αα⁻¹ (f_α, K_αu)
+        // K_αα⁻¹ (f_α, K_αu, K_αθ)
         let rows = stiffness.chunks_exact(total).zip(&*force);
         let to = inner.chunks_exact_mut(nmode);
         for (((row, f), inner), to) in rows.zip(to).zip(solution.chunks_exact_mut(nright)) {
             inner.copy_from_slice(&row[..nmode]);
             to[0] = *f;
-            to[1..].copy_from_slice(&row[nmode..nmode + nright - 1]);
+            to[1..nright - nheat].copy_from_slice(&row[nmode..nmode + nright - nheat - 1]);
+        }
+        let of_modes = thermal.chunks_exact(nheat.max(1));
+        for (to, from) in solution.chunks_exact_mut(nright).zip(of_modes) {
+            to[nright - nheat..].copy_from_slice(from);
         }
         if symmetric {
             mirror(inner, nmode, ND);
@@ -116,7 +124,7 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
         step(u.as_flattened_mut(), solution, nright);
     }
     if outcome.is_ok() {
-        condense::<ND>(out, symmetric, nmode, force, stiffness, solution);
+        condense::<ND>(out, symmetric, nmode, force, stiffness, solution, thermal);
         step(u.as_flattened_mut(), solution, nright);
         out.new[nhistory..nhistory + nmode].copy_from_slice(&u.as_flattened()[..nmode]);
     }
@@ -136,7 +144,8 @@ fn step(modes: &mut [f64], solution: &[f64], nright: usize) {
     }
 }
 
-/// (E12), from `solution = K_αα⁻¹ (f_α, K_αu)`; without `K_αu` for the force alone.
+/// (E12), from `solution = K_αα⁻¹ (f_α, K_αu, K_αθ)`; without `K_αu` for the force alone. What the forces are against temperatures,
+/// `thermal`, is condensed as the stiffness is.
 #[inline]
 fn condense<const ND: usize>(
     out: &mut Output<'_>,
@@ -145,6 +154,7 @@ fn condense<const ND: usize>(
     force: &[f64],
     stiffness: &[f64],
     solution: &[f64],
+    thermal: &[f64],
 ) {
     let (total, nright) = (force.len(), solution.len() / nmode);
     let n = total - nmode;
@@ -164,10 +174,15 @@ fn condense<const ND: usize>(
         if nright == 1 {
             continue;
         }
+        let nheat = out.thermal.len() / n;
+        if let Some(to) = out.thermal.get_mut(i * nheat..(i + 1) * nheat) {
+            to.copy_from_slice(&thermal[row * nheat..(row + 1) * nheat]);
+            rows().for_each(|(k, x)| dense::subtract(to, k, &x[1 + n..]));
+        }
         let first = if symmetric { i / ND * ND } else { 0 };
         if let Some(to) = out.stiffness.get_mut(i * n + first..(i + 1) * n) {
             to.copy_from_slice(&stiffness[row * total + nmode + first..(row + 1) * total]);
-            rows().for_each(|(k, x)| dense::subtract(to, k, &x[1 + first..]));
+            rows().for_each(|(k, x)| dense::subtract(to, k, &x[1 + first..1 + n]));
         }
     }
 }
@@ -186,6 +201,7 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
     let symmetric = element.material.is_symmetric();
     out.force.fill(0.0);
     out.stiffness.fill(0.0);
+    out.thermal.fill(0.0);
     let mut response = Response::default();
     let mut size = [0.0; MOST];
     for (point, xi) in points.rule.points.iter().enumerate() {
@@ -217,6 +233,11 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
         }
         let (stress, tangent) = (&response.stress, &response.tangent);
         add_stiffness::<NT, ND, NG>(&gradient, None, at.weight, stress, tangent, symmetric, out);
+        if !out.thermal.is_empty() {
+            let force = contract::<NT, ND, NG>(&gradient, &f, &response.thermal);
+            let shape = points.thermal(point);
+            add_thermal(out.thermal, at.weight, force.as_flattened(), shape);
+        }
     }
     Ok(size.into_iter().fold(0.0, f64::max))
 }

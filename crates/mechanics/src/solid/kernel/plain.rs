@@ -2,8 +2,9 @@
 
 use super::element::{Element, Failure, Output};
 use super::gradient::{deformation, displacement_gradient, place, strain};
-use super::stiffness::{add_force, add_stiffness, contract};
+use super::stiffness::{add_force, add_stiffness, add_thermal, contract};
 use crate::material::{Order, Response};
+use signorini_geometry::tensor::Mat3;
 
 pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     element: &Element<'_>,
@@ -38,6 +39,12 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
                 symmetric,
                 out,
             );
+            if !out.thermal.is_empty() {
+                let f = f.map_or(&Mat3::IDENTITY, |[f, _]| f);
+                let force = contract::<NN, ND, NG>(&at.gradient, f, &response.thermal);
+                let shape = element.reference.thermal(point);
+                add_thermal(out.thermal, at.weight, force.as_flattened(), shape);
+            }
         }
     }
     Ok(())

@@ -12,6 +12,7 @@
 
 use super::element::{Element, Failure, Output};
 use super::gradient::{displacement_gradient, inverse, jacobian, place};
+use super::stiffness::add_thermal;
 use crate::material::{Order, Response};
 use signorini_geometry::tensor::Sym3;
 
@@ -59,6 +60,13 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         }
         if order != Order::Tangent {
             continue;
+        }
+        if !out.thermal.is_empty() {
+            let thermal = response.thermal.to_pairs();
+            let of_row = |row: &[f64; NSTRAIN]| row.iter().zip(&thermal).map(|(b, s)| b * s).sum();
+            let force: [[f64; 2]; NN] = rows.each_ref().map(|row| row.each_ref().map(of_row));
+            let shape = element.reference.thermal(point);
+            add_thermal(out.thermal, at.weight, force.as_flattened(), shape);
         }
         for (to, left) in out
             .stiffness

@@ -50,6 +50,19 @@ pub(super) fn add_force<const NN: usize, const ND: usize>(
     }
 }
 
+/// Adds a change of forces with temperature, node by node, against the temperatures of the nodes, which have these shape functions;
+/// of the rows, as many as there is room for.
+#[inline]
+pub(super) fn add_thermal(thermal: &mut [f64], weight: f64, forces: &[f64], shape: &[f64]) {
+    let rows = thermal.chunks_exact_mut(shape.len().max(1));
+    for (row, force) in rows.zip(forces) {
+        let force = weight * force;
+        row.iter_mut()
+            .zip(shape)
+            .for_each(|(to, n)| *to += force * n);
+    }
+}
+
 /// Adds `w N_I,a A_iakb N_J,b` with `A_iakb = F_ir C_rasb F_ks + δ_ik S_ab` (E2), the second part only at finite strain. The left and
 /// the right `F` need not be the same.
 /// Where it is `symmetric`, only blocks on and above the diagonal. Of the rows, as many as there is room for.

@@ -150,7 +150,7 @@ fn check(body: &Body, potential: bool, what: &str) {
 }
 
 /// What the room's table allows, written down a second time.
-fn allowed(element: &str, wish: &Wish) -> bool {
+pub(super) fn allowed(element: &str, wish: &Wish) -> bool {
     let finite = wish.kinematics == Kinematics::Finite;
     let sheet = matches!(wish.space, Idealisation::PlaneStress { .. });
     let reduced = wish.integration == Integration::Reduced && ["quad8", "hex20"].contains(&element);

@@ -241,6 +241,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         nonlinear: false,
         scheme: None,
         vibrates: false,
+        physics: crate::system::Physics::default(),
     };
     solid.begin(&Phase::of_step(step), &at).unwrap();
     at.time = 3.0;

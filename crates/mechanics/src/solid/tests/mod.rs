@@ -19,6 +19,7 @@ mod axes;
 mod batch;
 mod conserving;
 mod derivatives;
+mod heat;
 mod history;
 mod locking;
 mod patch;

@@ -228,7 +228,9 @@ impl Newton {
             self.place(system, alpha);
             return Ok(alpha);
         }
-        if system.terms.iter().any(|t| t.properties().has_saddle) {
+        // nor have forces and heat a potential in common
+        let has_heat = self.step.physics.has_heat();
+        if has_heat || system.terms.iter().any(|t| t.properties().has_saddle) {
             return self.shorten(system, first, next);
         }
         let slope = self.slope();

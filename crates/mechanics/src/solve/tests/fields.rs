@@ -238,6 +238,7 @@ impl Bar {
             ncell: vec![cells.len()],
             heavy: Arc::new([]),
             rates: None,
+            at_start: Arc::default(),
             wanted: crate::system::Wanted::default(),
             reference,
         }
@@ -270,6 +271,7 @@ impl Bar {
             scheme: None,
             control: None,
             vibration: None,
+            physics: crate::system::Physics::default(),
             prescriptions,
         }
     }

@@ -349,6 +349,7 @@ fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
         ncell: Vec::new(),
         heavy: Arc::new([]),
         rates: None,
+        at_start: Arc::default(),
         wanted: crate::system::Wanted::default(),
     }
 }
@@ -366,6 +367,7 @@ fn step(increments: Increments, prescribed: &[(NodeId, Motion)]) -> Step {
         scheme: None,
         control: None,
         vibration: None,
+        physics: crate::system::Physics::default(),
         prescriptions: prescribed.iter().map(prescription).collect(),
     }
 }

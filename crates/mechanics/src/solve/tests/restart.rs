@@ -58,10 +58,12 @@ fn sliding_block() -> Model {
             scheme: None,
             control: None,
             vibration: None,
+            physics: crate::system::Physics::default(),
             changes,
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }
     };

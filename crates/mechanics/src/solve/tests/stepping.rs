@@ -276,6 +276,7 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
             scheme: None,
             control: None,
             vibration: None,
+            physics: crate::system::Physics::default(),
             changes: vec![
                 Change::Prescribe(Target::Nodes((0..4).collect()), vec![held(2)]),
                 Change::Prescribe(Target::Nodes(vec![0, 3]), vec![held(0)]),
@@ -288,6 +289,7 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
             loads: Vec::new(),
             contacts: Vec::new(),
             temperatures: Vec::new(),
+            freed_temperatures: Vec::new(),
             activity: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)

@@ -97,10 +97,12 @@ fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
         scheme: None,
         control: None,
         vibration: None,
+        physics: crate::system::Physics::default(),
         changes,
         loads: Vec::new(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
+        freed_temperatures: Vec::new(),
         activity: Vec::new(),
     }
 }

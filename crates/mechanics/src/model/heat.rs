@@ -1,0 +1,98 @@
+//! Temperatures as unknowns: what steps prescribe of them, and the terms of bodies that conduct.
+
+use super::{Context, HeatPart, ModelError, StepPart};
+use crate::solid::{HeatInBody, HeatParts, Integration};
+use crate::solve::{Motion, Prescription};
+use crate::system::{Dof, Heat, Idealisation, Layout, NO_DOF, Term};
+use signorini_geometry::mesh::{CellId, NodeId};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// The same layout with temperatures, where some step solves for them.
+pub(super) fn with_temperatures(layout: Layout, steps: &[StepPart]) -> Layout {
+    let solves = steps.iter().any(|step| step.physics.has_heat());
+    let field = solves.then_some(Layout::TEMPERATURE);
+    field
+        .and_then(|field| layout.with_field(field))
+        .unwrap_or(layout)
+}
+
+/// Temperatures at the start, as unknowns.
+pub(super) fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]> {
+    let of_nodes = (0..).zip(temperature);
+    let of_nodes = of_nodes.map(|(node, value)| (layout.temperature(node), *value));
+    of_nodes.filter(|(dof, _)| *dof != NO_DOF).collect()
+}
+
+/// What steps prescribe of temperatures, one after the other.
+#[derive(Default)]
+pub(super) struct Temperatures {
+    /// Nodes whose temperature a step has given.
+    given: BTreeSet<NodeId>,
+}
+
+impl Temperatures {
+    /// What is prescribed in the next step: what it gives, what earlier ones gave, and all of it where temperatures are not solved
+    /// for.
+    pub fn of(&mut self, step: &StepPart, layout: &Layout) -> Vec<Prescription> {
+        if !layout.has_temperatures() {
+            return Vec::new();
+        }
+        for node in &step.freed_temperatures {
+            self.given.remove(node);
+        }
+        let here: BTreeMap<NodeId, f64> = step.temperatures.iter().copied().collect();
+        self.given.extend(here.keys());
+        let motion = |node: &NodeId| match here.get(node) {
+            None => Motion::Hold,
+            // what stores heat is heated at once, as other programs have it
+            Some(to) if step.physics.heat == Heat::Transient => Motion::Table(vec![[0.0, *to]]),
+            Some(to) => Motion::Ramp(*to),
+        };
+        let prescribe = |node: NodeId| Prescription {
+            dof: layout.temperature(node),
+            motion: motion(&node),
+        };
+        match step.physics.has_heat() {
+            true => self.given.iter().map(|&node| prescribe(node)).collect(),
+            false => (0..layout.nnode() as NodeId).map(prescribe).collect(),
+        }
+    }
+}
+
+/// Where a body is that conducts.
+pub(super) struct Site<'a> {
+    pub name: &'a str,
+    pub cells: &'a [CellId],
+    pub space: Idealisation,
+    pub profile: Option<Arc<[f64]>>,
+    pub integration: Integration,
+}
+
+impl Context<'_> {
+    /// The heat of a body; none where it does not conduct, or no temperature is unknown.
+    pub(super) fn heat(
+        &self,
+        site: Site<'_>,
+        heat: Option<&HeatPart>,
+    ) -> Result<Option<Box<dyn Term>>, ModelError> {
+        let Some(heat) = heat.filter(|_| self.layout.has_temperatures()) else {
+            return Ok(None);
+        };
+        let mut term = HeatInBody::new(HeatParts {
+            name: site.name,
+            mesh: self.mesh,
+            reference: self.reference.clone(),
+            cells: site.cells,
+            layout: self.layout,
+            space: site.space,
+            profile: site.profile,
+            conductor: heat.conductor.clone(),
+            axes: heat.axes,
+            reduced: site.integration == Integration::Reduced,
+            storage: heat.storage,
+        })?;
+        term.set_activity(self.activity.clone());
+        Ok(Some(Box::new(term)))
+    }
+}

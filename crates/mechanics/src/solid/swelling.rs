@@ -1,0 +1,43 @@
+//! What stresses are against temperatures that are unknown:
+//!
+//! ```text
+//! K_uθ = Σ w F_ir (∂S_ra/∂θ) N_I,a N_J                                                          (E35)
+//! ```
+//!
+//! with the same projections and condensations as (E2).
+
+use super::scratch::Scratch;
+use super::term::Solid;
+use crate::system::{Dof, PatternSink, Sink};
+use signorini_geometry::mesh::NodeId;
+
+impl Solid {
+    /// Whether stresses depend on temperatures that are unknown in the present step.
+    pub(super) fn swells(&self) -> bool {
+        let physics = self.step.physics;
+        physics.moves && physics.has_heat() && self.temperature.is_some()
+    }
+
+    /// Hands over what the forces of a cell are against temperatures.
+    pub(super) fn hand_thermal(&self, nodes: &[NodeId], of: &mut Scratch, out: &mut dyn Sink) {
+        if of.thermal.is_empty() {
+            return;
+        }
+        of.heat.clear();
+        let dofs = nodes.iter().map(|&node| self.layout.temperature(node));
+        of.heat.extend(dofs);
+        out.couple(&of.dofs, &of.heat, &of.thermal);
+    }
+
+    /// Adds what displacements and temperatures of the nodes of a cell couple.
+    pub(super) fn couple_heat(&self, nodes: &[NodeId], out: &mut dyn PatternSink) {
+        if !self.swells() {
+            return;
+        }
+        let axes = 0..self.layout.ndim();
+        let of_node = |&node| axes.clone().map(move |axis| self.layout.node(node, axis));
+        let motions: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
+        let heat = nodes.iter().map(|&node| self.layout.temperature(node));
+        out.coupling(&motions, &heat.collect::<Vec<Dof>>());
+    }
+}
