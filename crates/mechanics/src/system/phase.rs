@@ -36,6 +36,12 @@ impl Physics {
         Self { moves: true, heat }
     }
 
+    /// A number for each: what is coupled differs between those that differ.
+    #[must_use]
+    pub const fn id(&self) -> u64 {
+        2 * self.heat as u64 + self.moves as u64
+    }
+
     /// Whether temperatures are unknown.
     #[must_use]
     pub fn has_heat(&self) -> bool {

@@ -1,14 +1,16 @@
 //! Heat across an interface, on the rows of its forces.
 //!
-//! A row has a number β for each participant, positive on the secondary side and negative on the primary, which sum to ±1: its
-//! operator is β times the identity. With the mean and the jump of temperature `θ_m = ½ Σ |β| θ`, `[θ] = Σ β θ`, and the share
-//! `a = f β⁺ − (1 − f) β⁻` of the heat `η 𝒟` that friction sets free,
+//! A row has a number β for each participant, which sum to the covered part c of its measure on the secondary side and to −c on
+//! the primary: its operator is β times the identity. With s = 1 on the secondary side and −1 on the primary, the jump and the
+//! mean of temperature `[θ] = Σ β θ/c`, `θ_m = ½ Σ s β θ/c`, and the share `a = f β` or `−(1 − f) β` of either side in the heat
+//! `η 𝒟` that friction sets free,
 //!
 //! ```text
 //! R_θ  = w (β q − a η 𝒟),    q = h(p, g, θ_m, [θ]) [θ]                                           (E1)
-//! K_θθ = w β (h β + [θ] (h_m ½|β| + h_j β))ᵀ                                                     (E2)
+//! K_θθ = w β dqᵀ                                                                                 (E2)
 //! K_θu = w (β dqᵀ + q ∂β/∂d − η (a d𝒟ᵀ + 𝒟 ∂a/∂d))                                               (E3)
-//!   dq = [θ] (h_p dp + h_g G) + (h + [θ] h_j) (∂β)ᵀθ + ½ h_m [θ] (sgn(β) ∂β)ᵀθ
+//!   dq = [θ] (h_p dp + h_g dg + h_m dθ_m) + (h + [θ] h_j) d[θ]
+//!   d[θ] = (Σ θ dβ + Σ β dθ − [θ] dc)/c,  dc = Σ dβ over the secondary side, and likewise dθ_m
 //! 𝒟 Δt = L (|e| − L/k) of what slips by penalties, |t·e| by multipliers                          (E4)
 //! ```
 //!
@@ -16,7 +18,7 @@
 //! section 9.7.
 
 use super::rows::row_order;
-use super::{Answer, Interface, Laws, Order, Participant, Scratch, Sink, State, TermError};
+use super::{Answer, Interface, Laws, Order, Participant, Rows, Scratch, Sink, State, TermError};
 use crate::contact::kernel::Slopes;
 use crate::contact::law::{Between, Conductance, Conducted};
 use crate::contact::row::Row;
@@ -44,11 +46,25 @@ pub struct FrictionHeat {
     pub to_secondary: f64,
 }
 
+/// A participant of a row.
+#[derive(Clone, Copy, Debug)]
+struct OfParticipant {
+    /// θ.
+    temperature: f64,
+    /// β.
+    beta: f64,
+    /// s.
+    side: f64,
+}
+
 /// What is known of a row and its temperatures.
 #[derive(Default)]
 pub(super) struct ThermalScratch {
-    /// θ, β and its place among the columns, of each participant.
-    participants: Vec<(f64, f64, usize)>,
+    participants: Vec<OfParticipant>,
+    /// c.
+    coverage: f64,
+    /// dc over the columns of displacements.
+    dcoverage: Vec<f64>,
     dofs: Vec<Dof>,
     /// ∂β/∂d: a line for each participant.
     dbeta: Vec<f64>,
@@ -118,7 +134,7 @@ impl Interface {
             return Ok(());
         };
         let s = &mut scratch.thermal;
-        if !self.take_temperatures(heat, scratch.rows.participants(), filled, trial, s) {
+        if !self.take_temperatures(heat, &scratch.rows, filled, trial, s) {
             return Ok(());
         }
         let lambda = self.lambda(row, trial);
@@ -140,7 +156,10 @@ impl Interface {
         for path in &heat.paths {
             conducted += path.at(&at, &self.parts.scale);
         }
-        let weight = heat.share * self.measure(row) * filled.coverage;
+        if pressure <= 0.0 {
+            conducted.dpressure = 0.0;
+        }
+        let weight = heat.share * self.measure(row);
         let power = match heat.friction.filter(|_| self.duration > 0.0) {
             Some(_) => s.slopes.dissipated / self.duration,
             None => 0.0,
@@ -162,7 +181,7 @@ impl Interface {
         if order == Order::Tangent && self.step.physics.moves {
             s.couple(
                 filled,
-                (&conducted, jump),
+                (&conducted, [jump, mean]),
                 (weight, power),
                 (friction, self.duration),
             );
@@ -172,7 +191,7 @@ impl Interface {
         }
         // the rounding of temperatures, and that of positions through the pressure
         let s = &scratch.thermal;
-        let temperatures = s.participants.iter().map(|p| p.0.abs());
+        let temperatures = s.participants.iter().map(|of| of.temperature.abs());
         let far = temperatures.fold(0.0, f64::max);
         let pressed = self.rounding(&scratch.rows, trial, answer) * conducted.dpressure * jump;
         let error = f64::EPSILON * weight * conducted.h.abs() * far + heat.share * pressed.abs();
@@ -184,7 +203,7 @@ impl Interface {
     fn take_temperatures(
         &self,
         heat: &ContactHeat,
-        participants: &[Participant],
+        rows: &Rows,
         row: &Row,
         trial: &State,
         s: &mut ThermalScratch,
@@ -192,10 +211,12 @@ impl Interface {
         s.participants.clear();
         s.dofs.clear();
         s.dbeta.clear();
+        s.coverage = row.coverage;
         let n = row.weights.len();
+        let secondary = rows.secondary();
         let mut first = 0;
         let mut sum = 0.0;
-        for participant in participants {
+        for (place, participant) in rows.participants().iter().enumerate() {
             let beta = row.sliding.operator.get(first).map_or(0.0, |b| b.x);
             let (dof, value) = match *participant {
                 Participant::Node(node) => {
@@ -204,22 +225,47 @@ impl Interface {
                 }
                 Participant::Rigid(_) => (NO_DOF, heat.primary),
             };
-            let Some(value) = value else {
+            let Some(temperature) = value else {
                 return false;
             };
             sum += beta;
-            s.participants.push((value, beta, first));
             s.dofs.push(dof);
             row.sliding.dnumber(first, &mut s.dbeta);
+            s.participants.push(OfParticipant {
+                temperature,
+                beta,
+                side: if secondary.contains(&place) {
+                    1.0
+                } else {
+                    -1.0
+                },
+            });
             first += participant.ncolumn();
         }
+        s.dcoverage.clear();
+        s.dcoverage.resize(n, 0.0);
+        let lines = s.dbeta.chunks_exact(n.max(1)).zip(&s.participants);
+        for (line, _) in lines.filter(|(_, of)| of.side > 0.0) {
+            let to = s.dcoverage.iter_mut();
+            to.zip(line).for_each(|(to, d)| *to += d);
+        }
+        if s.coverage <= 0.0 {
+            return false;
+        }
         // a surface fixed in space takes no part in the row
-        let Some(primary) = heat.primary.filter(|_| sum > 0.5) else {
-            return sum <= 0.5;
+        if sum <= 0.5 * row.coverage {
+            return true;
+        }
+        let Some(temperature) = heat.primary else {
+            return false;
         };
-        s.participants.push((primary, -sum, n));
         s.dofs.push(NO_DOF);
-        s.dbeta.resize(s.dbeta.len() + n, 0.0);
+        s.participants.push(OfParticipant {
+            temperature,
+            beta: -sum,
+            side: -1.0,
+        });
+        s.dbeta.extend(s.dcoverage.iter().map(|d| -d));
         true
     }
 }
@@ -228,9 +274,11 @@ impl ThermalScratch {
     /// [θ] and θ_m.
     fn jump_and_mean(&self) -> [f64; 2] {
         let all = self.participants.iter();
-        all.fold([0.0; 2], |[jump, mean], (value, beta, _)| {
-            [jump + beta * value, mean + 0.5 * beta.abs() * value]
-        })
+        let sums = all.fold([0.0; 2], |[jump, mean], of| {
+            let part = of.beta * of.temperature;
+            [jump + part, mean + 0.5 * of.side * part]
+        });
+        sums.map(|sum| sum / self.coverage)
     }
 
     /// (E1).
@@ -244,17 +292,18 @@ impl ThermalScratch {
         let flow = weight * conducted.h * jump;
         let heat = weight * friction.fraction * power;
         self.force.clear();
-        let of = |(_, beta, _): &(f64, f64, usize)| beta * flow - friction.taken(*beta) * heat;
+        let of = |of: &OfParticipant| of.beta * flow - friction.taken(of.side) * of.beta * heat;
         self.force.extend(self.participants.iter().map(of));
     }
 
     /// (E2).
     fn add_stiffness(&mut self, conducted: &Conducted, jump: f64, weight: f64) {
         let through = conducted.h + jump * conducted.djump;
-        for (_, row, _) in &self.participants {
-            let of = |(_, beta, _): &(f64, f64, usize)| {
-                let mean = 0.5 * jump * conducted.dmean * beta.abs();
-                weight * row * (through * beta + mean)
+        let mean = 0.5 * jump * conducted.dmean;
+        for row in &self.participants {
+            let of = |column: &OfParticipant| {
+                let change = (through + mean * column.side) * column.beta / self.coverage;
+                weight * row.beta * change
             };
             self.stiffness.extend(self.participants.iter().map(of));
         }
@@ -264,52 +313,52 @@ impl ThermalScratch {
     fn couple(
         &mut self,
         row: &Row,
-        (conducted, jump): (&Conducted, f64),
+        (conducted, [jump, mean]): (&Conducted, [f64; 2]),
         (weight, power): (f64, f64),
         (friction, duration): (FrictionHeat, f64),
     ) {
         let (n, width) = (row.weights.len(), self.slopes.pressure.len());
         let through = conducted.h + jump * conducted.djump;
+        let of_mean = jump * conducted.dmean;
         self.dflow.clear();
         self.dpower.clear();
-        for j in 0..width {
-            let mut flow = jump * conducted.dpressure * self.slopes.pressure[j];
-            if j < n {
-                flow += jump * conducted.dgap * row.gradient[j];
-                for (k, (value, beta, _)) in self.participants.iter().enumerate() {
-                    let change = self.dbeta[k * n + j] * value;
-                    flow +=
-                        through * change + 0.5 * jump * conducted.dmean * beta.signum() * change;
-                }
+        for (j, dpressure) in self.slopes.pressure.iter().enumerate() {
+            let mut flow = jump * conducted.dpressure * dpressure;
+            if let (Some(gradient), Some(covered)) = (row.gradient.get(j), self.dcoverage.get(j)) {
+                let lines = self.dbeta.chunks_exact(n).zip(&self.participants);
+                let changes = lines.fold([0.0; 2], |[jump, mean], (line, of)| {
+                    let part = line.get(j).copied().unwrap_or_default() * of.temperature;
+                    [jump + part, mean + 0.5 * of.side * part]
+                });
+                let [djump, dmean] = [changes[0] - jump * covered, changes[1] - mean * covered];
+                flow += jump * conducted.dgap * gradient;
+                flow += (through * djump + of_mean * dmean) / self.coverage;
             }
             self.dflow.push(flow);
-            let slopes = self.slopes.dissipation.get(j).copied().unwrap_or_default();
-            self.dpower
-                .push(if power == 0.0 { 0.0 } else { slopes / duration });
+            let slope = self.slopes.dissipation.get(j).copied().unwrap_or_default();
+            let slope = if power == 0.0 { 0.0 } else { slope / duration };
+            self.dpower.push(slope);
         }
         let flow = conducted.h * jump;
-        for (k, (_, beta, _)) in self.participants.iter().enumerate() {
-            let taken = friction.fraction * friction.taken(*beta);
-            let share = friction.fraction * friction.taken(beta.signum());
-            for j in 0..width {
-                let turned = match j < n {
-                    true => self.dbeta[k * n + j],
-                    false => 0.0,
-                };
-                let heat = taken * self.dpower[j] + share * beta.signum() * power * turned;
-                let of = beta * self.dflow[j] + flow * turned - heat;
-                self.coupling.push(weight * of);
-            }
+        for (k, of) in self.participants.iter().enumerate() {
+            let share = friction.fraction * friction.taken(of.side);
+            let line = self.dbeta.get(k * n..(k + 1) * n).unwrap_or_default();
+            let turned = line.iter().copied().chain(std::iter::repeat(0.0));
+            let all = self.dflow.iter().zip(&self.dpower).zip(turned).take(width);
+            self.coupling.extend(all.map(|((dflow, dpower), turned)| {
+                let conducted = of.beta * dflow + flow * turned;
+                weight * (conducted - share * (of.beta * dpower + power * turned))
+            }));
         }
     }
 }
 
 impl FrictionHeat {
-    /// a: what a participant takes of the heat, of what its β is.
-    fn taken(&self, beta: f64) -> f64 {
-        match beta > 0.0 {
-            true => self.to_secondary * beta,
-            false => -(1.0 - self.to_secondary) * beta,
+    /// a/β: what a participant of a side takes of the heat.
+    fn taken(&self, side: f64) -> f64 {
+        match side > 0.0 {
+            true => self.to_secondary,
+            false => self.to_secondary - 1.0,
         }
     }
 }

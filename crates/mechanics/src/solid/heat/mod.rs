@@ -462,7 +462,10 @@ impl Term for HeatInBody {
         } else {
             Symmetry::Unsymmetric
         };
-        Properties::new(symmetry, Part::Interface)
+        Properties {
+            elements: self.step.physics.id(),
+            ..Properties::new(symmetry, Part::Interface)
+        }
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {

@@ -229,8 +229,9 @@ impl Newton {
             return Ok(alpha);
         }
         // nor have forces and heat a potential in common
-        let has_heat = self.step.physics.has_heat();
-        if has_heat || system.terms.iter().any(|t| t.properties().has_saddle) {
+        let physics = self.step.physics;
+        let is_coupled = physics.moves && physics.has_heat();
+        if is_coupled || system.terms.iter().any(|t| t.properties().has_saddle) {
             return self.shorten(system, first, next);
         }
         let slope = self.slope();

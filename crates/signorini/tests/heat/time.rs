@@ -1,0 +1,121 @@
+//! Heat that bodies store, and what flows through their surfaces.
+
+use super::*;
+
+/// A slab of length 1, κ = k = 1, at 0; its left end is at 1 from the start on, its right end insulated.
+fn slab(ndim: usize, increments: usize, capacity: &str) -> (Boxes, String) {
+    let mut boxes = Boxes::new(ndim);
+    boxes.add("slab", [0.0; 3], [1.0, 0.1, 0.1], [40, 1, 1]);
+    let rest = format!(
+        "[material.m]\nconductivity = 1.0\nspecific_heat = 0.5\ndensity = 2.0\n\
+         [[body]]\ngroup = \"slab\"\nmaterial = \"m\"\ncapacity = \"{capacity}\"\n\
+         [[step]]\nname = \"heat\"\nkind = \"heat\"\nthermal = \"transient\"\nduration = 0.1\nincrements = {{ fixed = {increments} }}\n\
+         temperature = [{{ on = \"slab_left\", value = 1.0 }}]\n"
+    );
+    let text = boxes.case(&rest);
+    (boxes, text)
+}
+
+#[test]
+fn a_slab_warms_as_the_series_says_to_first_order_in_time() {
+    // at t = 0.1
+    let exact = [
+        (0.25, 0.576_240_746_1),
+        (0.5, 0.264_348_684_8),
+        (1.0, 0.050_694_637_3),
+    ];
+    for ndim in [2, 3] {
+        for capacity in ["consistent", "lumped"] {
+            let errors = [20, 40].map(|increments| {
+                let (_, text) = slab(ndim, increments, capacity);
+                let (run, places) = solved(&text);
+                let frame = run.frames.last().unwrap();
+                let off = exact.iter().map(|(x, expected)| {
+                    let node = places.iter().position(|at| (at[0] - x).abs() < 1e-9);
+                    (frame.temperature[node.unwrap()] - expected).abs()
+                });
+                off.fold(0.0, f64::max)
+            });
+            assert!(errors[0] < 7.5e-3, "{ndim} {capacity} {errors:?}");
+            let order = (errors[0] / errors[1]).log2();
+            assert!((order - 1.0).abs() < 0.2, "{ndim} {capacity} {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_stored_came_in_at_the_support() {
+    let (_, text) = slab(2, 10, "consistent");
+    let (run, _) = solved(&text);
+    let mut came = 0.0;
+    for frame in &run.frames {
+        came += heat_in(frame)[0] * 0.01;
+        assert!((frame.heat_stored - came).abs() < 1e-12 * came.abs().max(1e-3));
+    }
+    assert!(came > 0.03);
+}
+
+#[test]
+fn phases_that_change_take_their_latent_heat_whatever_the_increments() {
+    // an insulated body that a source warms through its melting
+    let mut boxes = Boxes::new(2);
+    boxes.add("ice", [0.0; 3], [1.0; 3], [2, 1, 1]);
+    for increments in [1, 7] {
+        let rest = format!(
+            "[initial]\ntemperature = -10.0\n\
+             [material.m]\nconductivity = 1.0\nspecific_heat = [[-20.0, 2.0], [0.0, 2.0], [1.0, 4.0]]\ndensity = 1.5\n\
+             latent_heat = [[30.0, 0.0, 1.0]]\n\
+             [[body]]\ngroup = \"ice\"\nmaterial = \"m\"\n\
+             [[step]]\nname = \"melt\"\nkind = \"heat\"\nthermal = \"transient\"\nincrements = {{ fixed = {increments} }}\n\
+             load = [{{ on = \"ice\", heat_source = 120.0 }}]\n\
+             [solver]\nnewton = {{ force_tol = 1e-11, max_iterations = 60 }}\n"
+        );
+        let (run, _) = solved(&boxes.case(&rest));
+        let frame = run.frames.last().unwrap();
+        // 1.5 (20 + 3 + 30 + 4 (T − 1)) = 120
+        let expected = 1.0 + (120.0 / 1.5 - 53.0) / 4.0;
+        for t in at(frame, &boxes, "ice_all") {
+            assert!((t - expected).abs() < 1e-6, "{increments}: {t} {expected}");
+        }
+        assert!((frame.heat_stored - 120.0).abs() < 1e-9 * 120.0);
+    }
+}
+
+#[test]
+fn surfaces_radiate_and_convect_as_the_closed_forms_say() {
+    // a bar whose end radiates; `radiating_bar.json`, and CalculiX' cube, `radiating_cube_ccx.json`
+    for ndim in [2, 3] {
+        for (k, far, keys, expected) in [
+            (
+                1.0,
+                1000.0,
+                "radiation = { emissivity = 0.9, sink = 0.0 }",
+                115.841_702_3,
+            ),
+            (
+                50.0,
+                0.0,
+                "radiation = { emissivity = 1.0, sink = -12.0 }",
+                -0.950_738_6,
+            ),
+            (10.0, 100.0, "film = { h = 20.0, sink = 10.0 }", 40.0),
+            (10.0, 100.0, "heat_flux = -200.0", 80.0),
+            (10.0, 100.0, "heat_power = 50.0", 105.0),
+        ] {
+            let mut boxes = Boxes::new(ndim);
+            boxes.add("bar", [0.0; 3], [1.0; 3], [2, 1, 1]);
+            let rest = format!(
+                "[constants]\nstefan_boltzmann = 5.669e-8\nabsolute_zero = -273.15\n\
+                 [material.m]\nconductivity = {k:?}\n[[body]]\ngroup = \"bar\"\nmaterial = \"m\"\n\
+                 [[step]]\nname = \"heat\"\nkind = \"heat\"\nincrements = 1\n\
+                 temperature = [{{ on = \"bar_left\", value = {far:?} }}]\n\
+                 load = [{{ on = \"bar_right\", {keys} }}]\n\
+                 [solver]\nnewton = {{ force_tol = 1e-10 }}\n"
+            );
+            let (run, _) = solved(&boxes.case(&rest));
+            for t in at(run.frames.last().unwrap(), &boxes, "bar_right") {
+                assert!((t - expected).abs() < 1e-6, "{ndim} {keys}: {t}");
+            }
+        }
+    }
+}
