@@ -92,6 +92,11 @@ class Body(Table):
         "`\"linear\"`, `\"element\"`",
         default="linear",
     )
+    capacity: Key[Literal["consistent", "lumped"], Literal["consistent", "lumped"]] = Key(
+        "Where it stores heat: between the nodes of elements, or at these, which never overshoots",
+        "`\"consistent\"`, `\"lumped\"`",
+        default="consistent",
+    )
     group: Key[str | list[str] | None, str | Sequence[str]] = Key(
         "The mesh group, or a list of them",
         "text or list of text",
@@ -175,6 +180,20 @@ class Checkpoint(Table):
     )
 
 
+class Constants(Table):
+    """Constants of nature, in the units of the case: radiation needs them.
+
+    TOML: `constants`.
+    """
+
+    _toml = "constants"
+    absolute_zero: Key[float | None, float] = Key("Absolute zero, on the scale of temperatures", "number")
+    stefan_boltzmann: Key[float | None, float] = Key(
+        "Heat per time and area of a black surface over its absolute temperature to the fourth power",
+        "number > 0.0",
+    )
+
+
 class ConstraintLocal(Table):
     """Axes that the directions of kinematic are along, x first, at the place of each node: two vectors, or a cylindrical system.
 
@@ -246,6 +265,57 @@ class Constraint(Table):
     rhs: Key[float, float] = Key("The right-hand side, reached linearly over the first step", "number", default=0.0)
     sectors: Key[int | None, int] = Key("How many sectors make the whole, of cyclic", "whole number ≥ 1, ≤ 1000000000")
     with_: Key[str | None, str] = Key("The nodes of the other side, of cyclic", "text", key="with")
+
+
+class ContactConductanceGas(Table):
+    """K/(gap + jump), of a gas or a fluid between the sides.
+
+    TOML: `contact.conductance.gas`.
+    """
+
+    _toml = "contact.conductance.gas"
+    jump: Key[float | None, float] = Key("A length that is added to the gap", "number > 0.0")
+    k: Key[float | None, float] = Key("Its conductivity", "number > 0.0")
+
+
+class ContactConductancePower(Table):
+    """H0 (pressure/hardness)^n.
+
+    TOML: `contact.conductance.power`.
+    """
+
+    _toml = "contact.conductance.power"
+    h0: Key[float | None, float] = Key("H where the pressure is the hardness", "number > 0.0")
+    hardness: Key[float | None, float] = Key("A pressure", "number > 0.0")
+    n: Key[float, float] = Key("The exponent; 0.95 after Cooper, Mikic and Yovanovich", "number > 0.0", default=0.95)
+
+
+class ContactConductance(Table):
+    """Ways that heat takes across a contact, up to its reach: heat per time, area and difference of temperatures.
+
+    TOML: `contact.conductance`.
+    """
+
+    _toml = "contact.conductance"
+    constant: Key[float | None, float] = Key("Of what touches", "number ≥ 0.0")
+    gas: One[ContactConductanceGas] = One(
+        ContactConductanceGas,
+        "K/(gap + jump), of a gas or a fluid between the sides",
+        "a table",
+    )
+    over_gap: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [gap, h], linear between, constant before the first and 0 beyond the last",
+        "list of list of number; number ≥ 0.0, 2 of them",
+    )
+    over_pressure: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [pressure, h] of what touches, linear between, constant outside",
+        "list of list of number ≥ 0.0, 2 of them",
+    )
+    power: One[ContactConductancePower] = One(ContactConductancePower, "H0 (pressure/hardness)^n", "a table")
+    radiation: Key[list[Any] | None, Sequence[Any] | NDArray[Any]] = Key(
+        "Between parallel grey surfaces with these emissivities, with the [constants] of the case",
+        "list of number > 0.0, ≤ 1.0, 2 of them",
+    )
 
 
 class ContactDamping(Table):
@@ -370,6 +440,21 @@ class ContactFriction(Table):
     stiffness: Key[float | None, float] = Key("Shear traction per elastic slip", "number > 0.0")
     transition: Key[float | None, float] = Key("Length of slip over which the one becomes the other", "number > 0.0")
     tresca: Key[float | None, float] = Key("Shear traction wherever it touches", "number > 0.0")
+
+
+class ContactFrictionHeat(Table):
+    """What becomes of the work of friction.
+
+    TOML: `contact.friction_heat`.
+    """
+
+    _toml = "contact.friction_heat"
+    fraction: Key[float, float] = Key("The part of it that becomes heat", "number ≥ 0.0, ≤ 1.0", default=1.0)
+    to_secondary: Key[float, float] = Key(
+        "The part of that which the secondary side takes",
+        "number ≥ 0.0, ≤ 1.0",
+        default=0.5,
+    )
 
 
 class ContactStart(Table):
@@ -502,6 +587,11 @@ class Contact(Table):
         "`\"part\"`, `\"whole\"`",
         default="part",
     )
+    conductance: Mixed[ContactConductance] = Mixed(
+        ContactConductance,
+        "Heat per time, area and difference of temperatures of what touches; or the ways that heat takes, which add up; absent: none",
+        "number ≥ 0.0 or a table",
+    )
     damping: One[ContactDamping] = One(ContactDamping, "What damps closed points in dynamic steps", "a table")
     enforcement: Mixed[ContactEnforcement] = Mixed(
         ContactEnforcement,
@@ -523,6 +613,12 @@ class Contact(Table):
         "Coefficient of friction, or a table of what limits it",
         "number ≥ 0.0 or a table",
         default=0.0,
+    )
+    friction_heat: Mixed[ContactFrictionHeat] = Mixed(
+        ContactFrictionHeat,
+        "Whether friction heats the sides, in half each where nothing else is said",
+        "`true` or `false` or a table",
+        default=True,
     )
     friction_history: Key[Literal["place", "traction"], Literal["place", "traction"]] = Key(
         "What sticking points remember: the place where they stick; or, as OOFEM has it, the traction of the last increment, without friction in the one in which they close",
@@ -582,6 +678,10 @@ class Contact(Table):
         default="auto",
     )
     start: One[ContactStart] = One(ContactStart, "What is done about gaps and overlaps at the start", "a table")
+    temperature: Key[float | None, float] = Key(
+        "The temperature of a rigid surface; absent: it neither gives nor takes heat",
+        "number",
+    )
     tied: Mixed[ContactTied] = Mixed(
         ContactTied,
         "Whether the sides are joined: false, true or { offset, within }",
@@ -702,6 +802,23 @@ class Mass(Table):
     value: Key[float | None, float] = Key("The mass: at each node of a set, or of the reference", "number > 0.0")
 
 
+class MaterialConductivity(Table):
+    """Conductivity by direction, along the axes of the material.
+
+    TOML: `material.conductivity`.
+    """
+
+    _toml = "material.conductivity"
+    along: Key[list[Any] | None, Sequence[Any] | NDArray[Any]] = Key(
+        "Along the three axes",
+        "list of number > 0.0, 3 of them",
+    )
+    rows: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [temperature, k11, k22, k33, k12, k23, k13]",
+        "list of list of number; number > 0.0; number, 7 of them",
+    )
+
+
 class MaterialDamping(Table):
     """Viscous forces in dynamic steps.
 
@@ -793,6 +910,11 @@ class Material(MaterialTable):
     bulk: Key[float | None, float] = Key("Bulk modulus (stress)", "number > 0.0")
     c01: Key[float | None, float] = Key("Constant of mooney-rivlin (stress)", "number")
     c10: Key[float | None, float] = Key("Constant of mooney-rivlin (stress)", "number")
+    conductivity: Mixed[MaterialConductivity] = Mixed(
+        MaterialConductivity,
+        "Heat per time, length and temperature; or rows [temperature, k], linear between, constant outside; or by direction",
+        "number > 0.0 or list of list of number; number > 0.0, 2 of them or a table",
+    )
     damping: One[MaterialDamping] = One(MaterialDamping, "Viscous forces in dynamic steps", "a table")
     density: Key[float | None, float] = Key("Mass per volume", "number > 0.0")
     expansion: One[MaterialExpansion] = One(
@@ -801,8 +923,12 @@ class Material(MaterialTable):
         "a table",
     )
     exponent: Key[float | None, float] = Key("Hardening exponent of ramberg-osgood, at least 1", "number")
+    latent_heat: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [heat per mass, solidus, liquidus] of changes of phase",
+        "list of list of number > 0.0; number, 3 of them",
+    )
     model: Key[Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "rotated-linear", "ciarlet", "no-tension", "no-compression", "ramberg-osgood", "ramberg-osgood-eulerian", "own"] | None, Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "rotated-linear", "ciarlet", "no-tension", "no-compression", "ramberg-osgood", "ramberg-osgood-eulerian", "own"]] = Key(
-        "The law",
+        "The law; absent: of bodies that conduct heat and never deform",
         "`\"linear-elastic\"`, `\"saint-venant-kirchhoff\"`, `\"neo-hookean\"`, `\"mooney-rivlin\"`, `\"mooney-rivlin-logarithmic\"`, `\"ogden\"`, `\"orthotropic\"`, `\"hyperfoam\"`, `\"anisotropic\"`, `\"linear-elastic-by-temperature\"`, `\"rotated-linear\"`, `\"ciarlet\"`, `\"no-tension\"`, `\"no-compression\"`, `\"ramberg-osgood\"`, `\"ramberg-osgood-eulerian\"`, `\"own\"`",
     )
     mu: Key[float | list[float] | None, float | Sequence[float] | NDArray[Any]] = Key(
@@ -833,6 +959,10 @@ class Material(MaterialTable):
     residual: Key[float | None, float] = Key(
         "Stress that is left of the tension of no-tension, of the compression of no-compression (stress)",
         "number > 0.0",
+    )
+    specific_heat: Key[float | list[list[Any]] | None, float | Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Heat per mass and temperature; or rows [temperature, c], linear between, constant outside; next to a density",
+        "number > 0.0 or list of list of number; number > 0.0, 2 of them",
     )
 
 
@@ -1623,6 +1753,11 @@ class Free(Table):
         "Rotations set free, of a reference or rigid body",
         "`\"all\"` or list of `\"x\"`, `\"y\"`, `\"z\"`",
     )
+    temperature: Key[bool, bool] = Key(
+        "Whether temperatures that earlier steps gave are set free",
+        "`true` or `false`",
+        default=False,
+    )
     u: Key[Literal["all"] | list[Literal["x", "y", "z"]] | None, Literal["all"] | Sequence[Literal["x", "y", "z"]]] = Key(
         "Displacements set free: \"all\" or a list of \"x\", \"y\", \"z\"",
         "`\"all\"` or list of `\"x\"`, `\"y\"`, `\"z\"`",
@@ -1684,6 +1819,28 @@ class LoadCentrifugal(Table):
     speed: Key[float | None, float] = Key("Angular velocity, in radian per time", "number")
 
 
+class LoadFilm(Table):
+    """Convection: heat per time and area out of a surface, h (T - sink).
+
+    TOML: `step.load.film`.
+    """
+
+    _toml = "step.load.film"
+    h: Key[float | None, float] = Key("Heat per time, area and temperature", "number ≥ 0.0")
+    sink: Key[float | None, float] = Key("The temperature far from the surface", "number")
+
+
+class LoadRadiation(Table):
+    """Radiation to surroundings: emissivity sigma ((T - T_0)^4 - (sink - T_0)^4), with the constants of the case.
+
+    TOML: `step.load.radiation`.
+    """
+
+    _toml = "step.load.radiation"
+    emissivity: Key[float | None, float] = Key("Part of the radiation of a black surface", "number ≥ 0.0, ≤ 1.0")
+    sink: Key[float | None, float] = Key("The temperature of the surroundings", "number")
+
+
 class Load(Table):
     """Loads, reached linearly over the step unless `table` or `amplitude` says otherwise.
 
@@ -1702,6 +1859,7 @@ class Load(Table):
         "`\"none\"`, `\"rigid-x\"`, `\"rigid-y\"`, `\"rigid-z\"`",
         default="none",
     )
+    film: One[LoadFilm] = One(LoadFilm, "Convection: heat per time and area out of a surface, h (T - sink)", "a table")
     follows: Key[bool | None, bool] = Key(
         "Whether a pressure turns with the surface; absent: it does in nonlinear steps",
         "`true` or `false`",
@@ -1714,6 +1872,9 @@ class Load(Table):
         "Acceleration [x, y, z] of all mass",
         "list of number",
     )
+    heat_flux: Key[float | None, float] = Key("Heat per time and area into a surface", "number")
+    heat_power: Key[float | None, float] = Key("Heat per time, spread over what it acts on", "number")
+    heat_source: Key[float | None, float] = Key("Heat per time and volume, within bodies", "number")
     moment: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
         "The moment [x, y, z] about the centre of what it acts on",
         "list of number",
@@ -1725,6 +1886,11 @@ class Load(Table):
         "list of number",
     )
     pressure: Key[float | None, float] = Key("Pressure on a surface, positive inwards", "number")
+    radiation: One[LoadRadiation] = One(
+        LoadRadiation,
+        "Radiation to surroundings: emissivity sigma ((T - T_0)^4 - (sink - T_0)^4), with the constants of the case",
+        "a table",
+    )
     table: Key[list[list[float]] | None, Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any]] = Key(
         "Rows [time of the step, factor]; times increase",
         "list of list of number, 2 of them",
@@ -1857,7 +2023,7 @@ class Print(Table):
 
 
 class Temperature(Table):
-    """Temperatures, reached linearly over the step; others stay.
+    """Temperatures, reached linearly over the step, and at once in transient ones; others stay, or are unknown in heat and coupled steps.
 
     TOML: `step.temperature`.
     """
@@ -1908,9 +2074,9 @@ class Step(Table):
         "whole number ≥ 1, ≤ 1000000000 or a table",
         default=10,
     )
-    kind: Key[Literal["static", "dynamic", "frequency"], Literal["static", "dynamic", "frequency"]] = Key(
-        "The kind of analysis: equilibrium, a motion in time with inertia, or natural frequencies about the state that earlier steps lead to, which stays as it is",
-        "`\"static\"`, `\"dynamic\"`, `\"frequency\"`",
+    kind: Key[Literal["static", "dynamic", "frequency", "heat", "coupled"], Literal["static", "dynamic", "frequency", "heat", "coupled"]] = Key(
+        "The kind of analysis: equilibrium, a motion in time with inertia, natural frequencies about the state that earlier steps lead to, which stays as it is, temperatures alone, or equilibrium and temperatures together",
+        "`\"static\"`, `\"dynamic\"`, `\"frequency\"`, `\"heat\"`, `\"coupled\"`",
         default="static",
     )
     loads: Items[Load] = Items(
@@ -1940,9 +2106,13 @@ class Step(Table):
     )
     temperatures: Items[Temperature] = Items(
         Temperature,
-        "Temperatures, reached linearly over the step; others stay",
+        "Temperatures, reached linearly over the step, and at once in transient ones; others stay, or are unknown in heat and coupled steps",
         "list of a table",
         key="temperature",
+    )
+    thermal: Key[Literal["steady", "transient"] | None, Literal["steady", "transient"]] = Key(
+        "Of heat and coupled steps: heat in equilibrium, or stored by bodies as time passes; loads and temperatures then act at once unless they have a table or an amplitude",
+        "`\"steady\"`, `\"transient\"`",
     )
 
 
@@ -2197,6 +2367,11 @@ class CaseTable(Table):
         key="body",
     )
     checkpoint: One[Checkpoint] = One(Checkpoint, "When a run can be resumed from", "a table")
+    constants: One[Constants] = One(
+        Constants,
+        "Constants of nature, in the units of the case: radiation needs them",
+        "a table",
+    )
     constraints: Items[Constraint] = Items(
         Constraint,
         "Constraints between displacements, for the whole run",
@@ -2260,6 +2435,7 @@ if TYPE_CHECKING:
     BodyKeys = TypedDict("BodyKeys", {
         "area": float,
         "at_nodes": Literal["linear", "element"],
+        "capacity": Literal["consistent", "lumped"],
         "integration": Literal["full", "reduced", "raised"],
         "locking": Literal["auto", "none", "b-bar", "f-bar", "incompatible", "selective-shear"],
         "mass_matrix": Literal["auto", "consistent", "lumped"],
@@ -2289,11 +2465,13 @@ if TYPE_CHECKING:
         "all": bool | Sequence[str],
         "area": Literal["reference", "current", "adjacent", "opposite"],
         "basis": Literal["part", "whole"],
+        "conductance": float | ContactConductance | Mapping[str, Any],
         "damping": ContactDamping | Mapping[str, Any],
         "enforcement": Literal["auto"] | ContactEnforcement | Mapping[str, Any] | ContactLaw,
         "exclude": Sequence[Any] | NDArray[Any],
         "features": Literal["auto", "faces", "edges"],
         "friction": float | ContactFriction | Mapping[str, Any] | FrictionLimit,
+        "friction_heat": bool | ContactFrictionHeat | Mapping[str, Any],
         "friction_history": Literal["place", "traction"],
         "method": Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"],
         "normals": Literal["primary", "secondary", "nodal"] | Sequence[float] | NDArray[Any],
@@ -2306,6 +2484,7 @@ if TYPE_CHECKING:
         "self_": bool,
         "sliding": Literal["auto", "finite", "increment", "small"],
         "start": ContactStart | Mapping[str, Any],
+        "temperature": float,
         "tied": bool | ContactTied | Mapping[str, Any],
     }, total=False)
     OrientationKeys = TypedDict("OrientationKeys", {

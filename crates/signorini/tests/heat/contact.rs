@@ -24,6 +24,14 @@ fn bars(
         false => ["hot_right", "cold_left"],
         true => ["cold_left", "hot_right"],
     };
+    // without strain across, pressing changes nothing but that they touch
+    let press = match kind {
+        "coupled" if ndim == 3 => {
+            "move = [{ on = \"cold_right\", ux = -1e-3, uy = 0.0, uz = 0.0 }]\n"
+        }
+        "coupled" => "move = [{ on = \"cold_right\", ux = -1e-3, uy = 0.0 }]\n",
+        _ => "",
+    };
     let law =
         |k: f64| format!("model = \"linear-elastic\"\nE = 1000.0\nnu = 0.0\nconductivity = {k}");
     let rest = format!(

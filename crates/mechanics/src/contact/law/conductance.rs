@@ -1,6 +1,6 @@
 //! What heat flows between two sides, over the difference of their temperatures.
 
-use super::Scale;
+use super::{Scale, TOUCH};
 
 /// A way that heat takes between two sides; several add up.
 ///
@@ -94,7 +94,7 @@ impl Conductance {
     /// What it conducts.
     #[must_use]
     pub fn at(&self, at: &Between, scale: &Scale) -> Conducted {
-        let touches = at.pressure > 0.0 || at.gap <= 0.0;
+        let touches = at.pressure > 0.0 || at.gap <= TOUCH * scale.length;
         match self {
             Self::Constant(h) => Conducted {
                 h: if touches { *h } else { 0.0 },
