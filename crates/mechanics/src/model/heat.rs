@@ -25,10 +25,11 @@ pub(super) fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]
 }
 
 /// What steps prescribe of temperatures, one after the other.
-#[derive(Default)]
 pub(super) struct Temperatures {
     /// Nodes whose temperature a step has given.
     given: BTreeSet<NodeId>,
+    /// Nodes of no body that conducts: they keep their temperature unless a step gives them another.
+    idle: BTreeSet<NodeId>,
 }
 
 impl Temperatures {
@@ -54,7 +55,10 @@ impl Temperatures {
             motion: motion(&node),
         };
         match step.physics.has_heat() {
-            true => self.given.iter().map(|&node| prescribe(node)).collect(),
+            true => {
+                let held = self.given.union(&self.idle);
+                held.map(|&node| prescribe(node)).collect()
+            }
             false => (0..layout.nnode() as NodeId).map(prescribe).collect(),
         }
     }
@@ -70,6 +74,24 @@ pub(super) struct Site<'a> {
 }
 
 impl Context<'_> {
+    /// What steps prescribe of temperatures, before the first.
+    pub(super) fn temperatures(&self) -> Temperatures {
+        let mut idle = BTreeSet::new();
+        if self.layout.has_temperatures() {
+            idle.extend(0..self.layout.nnode() as NodeId);
+            let bodies = self.substances.iter().zip(self.cells_of_bodies());
+            for (_, cells) in bodies.filter(|(body, _)| body.conducts) {
+                for node in cells.iter().flat_map(|&cell| self.mesh.cell(cell)) {
+                    idle.remove(node);
+                }
+            }
+        }
+        Temperatures {
+            given: BTreeSet::new(),
+            idle,
+        }
+    }
+
     /// The heat of a body; none where it does not conduct, or no temperature is unknown.
     pub(super) fn heat(
         &self,

@@ -1,6 +1,5 @@
 use super::constraint_error::ConstraintError;
 use super::constraints::components;
-use super::heat::Temperatures;
 use super::label::label;
 use super::{Change, ContactPart, Context, LoadPart, ModelError, StepPart, Target};
 use crate::load::Place;
@@ -134,7 +133,7 @@ impl Context<'_> {
         let mut named: BTreeSet<Dof> = BTreeSet::new();
         let mut loads: Vec<Vec<LoadPart>> = Vec::new();
         let mut steps = Vec::new();
-        let mut temperatures = Temperatures::default();
+        let mut temperatures = self.temperatures();
         for part in parts {
             for motion in prescribed.values_mut() {
                 if !motion.goes_on() {

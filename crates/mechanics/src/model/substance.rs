@@ -12,6 +12,7 @@ pub(super) struct Substance {
     pub density: Option<f64>,
     pub mass: MassPart,
     pub deforms: bool,
+    pub conducts: bool,
     /// What it moves with, where it is rigid.
     pub carrier: Option<RigidId>,
     /// Cross-section of bars.
@@ -29,6 +30,7 @@ impl Substance {
             density: None,
             mass: MassPart::default(),
             deforms: !matches!(body.kind, BodyKind::Rigid { .. }),
+            conducts: matches!(&body.kind, BodyKind::Solid { heat: Some(_), .. }),
             carrier: None,
             section: None,
             integration: Integration::Full,

@@ -279,7 +279,7 @@ pub struct NodalValues {
     pub ncomponent: usize,
     /// The values: node by node, component by component.
     pub values: Vec<f64>,
-    /// The residuals where it is prescribed, in the same order; 0 elsewhere.
+    /// The residuals where it is prescribed, in the same order; 0 elsewhere; empty of what follows from fields.
     pub reaction: Vec<f64>,
 }
 
@@ -302,7 +302,7 @@ pub struct Frame {
     pub acceleration: Vec<Vec3>,
     /// Force that supports exert on each node.
     pub reaction_force: Vec<Vec3>,
-    /// The fields of the nodes besides the displacement.
+    /// The fields of the nodes besides the displacement, and what follows from them.
     pub fields: Vec<NodalValues>,
     /// Force of bodies, springs and contacts at each node, which is what loads, supports and couplings exert on it;
     /// empty where not wanted.

@@ -191,6 +191,15 @@ impl System {
         for term in &self.terms {
             term.report(state, &mut frame)?;
         }
+        if !frame.heat_flux.is_empty() {
+            let flux = frame.heat_flux.iter().flat_map(|flux| flux.to_array());
+            frame.fields.push(NodalValues {
+                name: "heat_flux",
+                ncomponent: 3,
+                values: flux.collect(),
+                reaction: Vec::new(),
+            });
+        }
         if let Some(energies) = &mut frame.energies {
             let of_contacts = frame.contacts.iter();
             energies.contact = of_contacts.clone().flat_map(|c| &c.energy).sum();
