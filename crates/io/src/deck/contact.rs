@@ -58,8 +58,8 @@ pub(super) struct Pair {
 /// Where a pair is said to be.
 #[derive(Clone, Debug)]
 pub(super) struct Sides {
-    secondary: Name,
-    primary: Name,
+    pub secondary: Name,
+    pub primary: Name,
 }
 
 /// A number, or what stands for it where it is not positive.
@@ -595,7 +595,7 @@ impl Translation<'_> {
     }
 
     /// The same, for a card that needs one.
-    fn pair_of(&mut self, card: &Statement, secondary: &Name, primary: &Name) -> Option<usize> {
+    pub fn pair_of(&mut self, card: &Statement, secondary: &Name, primary: &Name) -> Option<usize> {
         let found = self.between(secondary, primary);
         if found.is_none() {
             let text = format!("*{} of surfaces that are no contact pair", card.title);
@@ -683,7 +683,7 @@ impl Translation<'_> {
     }
 
     /// The change of a contact, by its place, in a step.
-    fn change<'s>(
+    pub fn change<'s>(
         &self,
         step: &'s mut Step,
         contact: usize,
@@ -697,6 +697,7 @@ impl Translation<'_> {
                 name: Spanned::new(name.clone(), place.clone()),
                 active: None,
                 friction: None,
+                fluid: None,
                 place: place.clone(),
             });
             step.contacts.len() - 1

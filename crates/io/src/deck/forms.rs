@@ -69,6 +69,11 @@ fn form(card: &Statement) -> Option<Form> {
             "node or set, first and last degree of freedom, value",
         ),
         "CLOAD" => each(some, (3, 3), "node or set, degree of freedom, force"),
+        "PRESSUREPENETRATION" => each(
+            SOME,
+            (3, 4),
+            "nodes of both surfaces, pressure, critical pressure",
+        ),
         "DSLOAD" => each(some, (3, 3), "surface, P, pressure"),
         "TEMPERATURE" if card.peek("FILE").is_some() => return None,
         "TEMPERATURE" => each(some, (2, 2), "node or set, temperature"),

@@ -224,6 +224,10 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     ignored("PREPRINT", "nothing is printed beforehand"),
     read("PRE-TENSION SECTION", "SURFACE, NODE, a normal"),
+    read(
+        "PRESSURE PENETRATION",
+        "SECONDARY, MAIN; a node of each, pressure, critical pressure; PENETRATION TIME",
+    ),
     ignored("PRINT", "every increment is told of"),
     read("REFINE MESH", "left out, with a warning"),
     ignored(

@@ -10,6 +10,7 @@
 //!                                  mass        masses at nodes and of references, and their weight
 //!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps
+//!                                  penetration fluids between the surfaces of pairs
 //!                                  submodel    nodes that move as those of another model
 //!                                  step        supports, loads, temperatures, changes, printed tables
 //! ```
@@ -43,6 +44,7 @@ mod motion;
 mod names;
 pub mod oofem;
 mod orientation;
+mod penetration;
 mod print;
 mod repeated;
 mod sections;

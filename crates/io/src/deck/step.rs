@@ -136,6 +136,7 @@ impl Translation<'_> {
                     self.load(card, renews, &mut standing.loads);
                 }
                 "TEMPERATURE" => self.temperatures(card, &mut step),
+                "PRESSUREPENETRATION" => self.penetration(card, &mut step),
                 "MODELCHANGE" => self.model_change(card, &mut step),
                 "CHANGESOLIDSECTION" => self.change_section(card, &mut step),
                 "CHANGEFRICTION" | "CHANGESURFACEBEHAVIOR" => change_of = Some(*card),

@@ -480,6 +480,14 @@ codes! {
      "to follow the motion at small strain:  sliding = \"finite\"  of the contact",
      "silence with  allow = [\"S0431\"]  where both sides are plane and wide"]
 
+    LEAKS "S0436" Input "a fluid that has come through a contact"
+    "The fluid between the sides has reached the rim where it did not come from: the contact does not seal. The pressure \
+     beyond the rim is not known, and what the contact is loaded by from then on is an assumption."
+    ["the pressure of the fluid is more than what presses the sides together holds",
+     "`from` names some of the nodes only where the fluid is from the start, and others are at the rim, too"]
+    ["look at `contact_wet` in the results for the way it took", "press the sides together harder",
+     "silence with  allow = [\"S0436\"]  where it is meant to leak"]
+
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
      before it are saved."

@@ -497,6 +497,12 @@ pub struct ContactSummary {
     /// What the forces of both sides do not balance, over the sum of the sizes of nodal forces: the worst of all increments.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub imbalance_force: f64,
+    /// Of a contact with a fluid, the area that is wet.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area_wet: Option<f64>,
+    /// Of a contact with a gasket, the largest closure so far.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closure_max: Option<f64>,
     /// What their moments do not balance, over that sum times the size of a facet: the worst of all increments.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub imbalance_moment: f64,

@@ -17,6 +17,8 @@ pub(super) struct Laws<'a> {
     pub friction: Option<&'a dyn FrictionLaw>,
     pub stick: Stick,
     pub scale: &'a Scale,
+    /// Whether the law is asked with what the row remembers, in the place of a multiplier.
+    pub has_past: bool,
     /// Whether the sides are joined.
     pub bond: bool,
     /// The stiffness of bonds within the tangent plane; `None`: as along the normal.
@@ -192,9 +194,9 @@ impl<'a> Laws<'a> {
         self.friction.or_else(smooth)
     }
 
-    /// λ along the normal.
+    /// λ along the normal, or what a law with a past is asked with in its place.
     pub fn scalar(&self, normal: Vec3, lambda: &Lambda) -> f64 {
-        if self.vectors {
+        if self.vectors && !self.has_past {
             -lambda.vector.dot(normal)
         } else {
             lambda.scalar
@@ -545,7 +547,7 @@ impl<'a> Laws<'a> {
         let wants_tangent = !target.stiffness.is_empty();
         let (nu, sliding) = (row.normal, &row.sliding);
         let along = nu.dot(lambda.vector);
-        let pressure = self.tried(row.seen(), -along);
+        let pressure = self.tried(row.seen(), self.scalar(nu, lambda));
         let open = pressure == Eval::default();
 
         work.reset(width);

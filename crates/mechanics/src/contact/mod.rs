@@ -88,7 +88,7 @@ mod row;
 pub(crate) mod tests;
 
 pub use interface::{
-    Allowance, Areas, Bend, ContactHeat, ContactPhase, FrictionHeat, Interface, InterfaceParts,
-    Measure, Shift, closest_points, inherit, nmultiplier,
+    Allowance, Areas, Bend, ContactHeat, ContactPhase, Critical, Fluid, FrictionHeat, Interface,
+    InterfaceParts, Measure, Shift, closest_points, inherit, nmultiplier,
 };
 pub use row::{Participant, Row, RowOrder, Rows, Wanted};

@@ -50,9 +50,9 @@ pub use impact::ControlPart;
 pub use parts::{
     ActivityPart, AreaPart, BodyKind, BodyPart, CarrierMass, CarrierPart, CarrierVelocity, Change,
     ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart,
-    FrictionPart, HeatPart, Interference, LoadPart, MassMatrix, MassPart, Method, Normals,
-    PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart, StepPart,
-    StickPart, Target, TieOffset, TiePart, Unknown,
+    FluidPart, FrictionPart, HeatPart, Interference, LoadPart, MassMatrix, MassPart, Method,
+    Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart,
+    StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 pub use summary::{
     BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,

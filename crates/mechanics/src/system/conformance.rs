@@ -233,6 +233,8 @@ fn specimens() -> Vec<Specimen> {
         bond: false,
         tangential: None,
         damping: Damping::default(),
+        fluid: None,
+        gasket: None,
     };
     let mut all = vec![
         solid("elastic solid", elastic),

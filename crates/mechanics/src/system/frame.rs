@@ -155,6 +155,14 @@ pub struct ContactFrame {
     pub center: Vec3,
     /// Work spent in friction since the start.
     pub work_friction: f64,
+    /// Of a contact with a fluid, how much of each node is wet, from 0 to 1; else empty.
+    pub wet: Vec<f64>,
+    /// What its fluid does.
+    pub fluid: Option<FluidFrame>,
+    /// Of a contact with a gasket, its closure at each node, and the largest so far; else empty.
+    pub closure: Vec<f64>,
+    /// The largest closure so far.
+    pub closure_max: Vec<f64>,
     /// Characteristic size of the facets, for judging the penetration.
     pub facet_size: f64,
     /// The largest motion since the start of what touched, along the other side, over that size, and its node; `None` where
@@ -162,6 +170,20 @@ pub struct ContactFrame {
     pub drift: Option<(f64, u32)>,
     /// Rows that touch and whose multipliers act on nothing that moves.
     pub idle: IdleRows,
+}
+
+/// What a fluid between the sides of a contact does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FluidFrame {
+    /// Its pressure.
+    pub pressure: f64,
+    /// The area that is wet.
+    pub area: f64,
+    /// What it exerts on the secondary side, and the opposite on the primary; moment about the origin. Contact forces are
+    /// without it.
+    pub on_secondary: Resultant,
+    /// A node at a side of the rim that the fluid has reached and did not come from: it leaks.
+    pub leak: Option<u32>,
 }
 
 /// Rows whose multipliers are left out, as what they act on is prescribed.

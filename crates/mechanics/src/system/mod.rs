@@ -86,8 +86,8 @@ pub use capabilities::{
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Energies, Footprint, Frame, FreeMotion, IdleRows, NodalValues,
-    ReportedAs, Resultant, RigidFrame, SpinFrame, Status,
+    ContactFrame, ContactSample, Energies, FluidFrame, Footprint, Frame, FreeMotion, IdleRows,
+    NodalValues, ReportedAs, Resultant, RigidFrame, SpinFrame, Status,
 };
 pub use idealisation::{Idealisation, profile_at};
 pub use impulsive::{Acts, Impulsive, NearRow, Rubbing};

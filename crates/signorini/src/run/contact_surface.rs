@@ -6,6 +6,8 @@
 //! | field | at each node |
 //! |---|---|
 //! | `contact_pressure` | the mean pressure over the points around the node, smoothed where the case asks for it |
+//! | `contact_wet` | of contacts with a fluid, how much of what belongs to the node is wet, from 0 to 1 |
+//! | `contact_closure`, `contact_closure_max` | of contacts with a gasket, its closure, and the largest so far |
 //! | `contact_pressure_max` | the largest pressure of these points: its maximum is `pressure_max` of terminal, history and summary |
 //! | `contact_multiplier` | the pressure in the equations, of the multiplier or of the law, never smoothed |
 //! | `contact_multiplier_traction` | the traction in the equations, likewise |
@@ -68,7 +70,23 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     let shear: Vec<f64> = frame.contacts.iter().flat_map(shear).collect();
     let status = frame.contacts.iter().flat_map(|c| c.status.iter());
     let status: Vec<i8> = status.map(|s| s.number()).collect();
-    let fields = [
+    // of contacts without a fluid or a gasket there is none: where others have one, theirs is 0
+    let some = |of: fn(&ContactFrame) -> &Vec<f64>| -> Vec<f64> {
+        if frame.contacts.iter().all(|c| of(c).is_empty()) {
+            return Vec::new();
+        }
+        let all = frame.contacts.iter().flat_map(|c| {
+            let known = of(c).iter().copied();
+            known.chain(std::iter::repeat(0.0)).take(c.nodes.len())
+        });
+        all.collect()
+    };
+    let more = [
+        ("contact_wet", some(|c| &c.wet)),
+        ("contact_closure", some(|c| &c.closure)),
+        ("contact_closure_max", some(|c| &c.closure_max)),
+    ];
+    let mut fields = vec![
         Field::new("displacement", Values::Vector(&displacement)),
         Field::new("contact_gap", Values::Scalar(&gap)),
         Field::new("contact_pressure", Values::Scalar(&pressure)),
@@ -87,6 +105,8 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
         Field::new("contact_pair", Values::Int32(&pairs)),
         Field::new("node_id", Values::Int64(&node_ids)),
     ];
+    let more = more.iter().filter(|(_, values)| !values.is_empty());
+    fields.extend(more.map(|(name, values)| Field::new(name, Values::Scalar(values))));
     let (time, place) = ([frame.time], place(frame));
     let grid = Grid {
         points: &points,

@@ -349,6 +349,8 @@ impl Run<'_, '_> {
         self.report_unless_allowed(frequencies, &mut found);
         let far = drift::warnings(&self.recorder.drifts, self.model);
         self.report_unless_allowed(far, &mut found);
+        let leaks = self.recorder.leaks.warnings(self.model);
+        self.report_unless_allowed(leaks, &mut found);
         if verdict.exit_code == 0 && wrong && self.options.strict {
             verdict = Verdict::new(1, "audit failed");
         }

@@ -237,6 +237,7 @@ mod tests {
             scheme: None,
             control: None,
             vibration: None,
+            physics: signorini_mechanics::system::Physics::default(),
             prescriptions: Vec::new(),
         };
         let mut all = Frequencies::default();

@@ -31,6 +31,7 @@ mod frd;
 mod frequencies;
 mod history;
 mod idle;
+mod leaks;
 mod limits;
 pub mod narration;
 mod news;

@@ -49,7 +49,7 @@ fn contact_status(frame: &Frame, node: usize) -> Option<f64> {
 }
 
 /// Every quantity with its name; those of forces are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 44] = [
+const QUANTITIES: [(&str, Read); 47] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
@@ -87,6 +87,15 @@ const QUANTITIES: [(&str, Read); 44] = [
         contact(f, n).and_then(|(one, at)| one.gap.get(at).copied())
     }),
     ("contact_status", contact_status),
+    ("contact_wet", |f, n| {
+        contact(f, n).map(|(one, at)| one.wet.get(at).copied().unwrap_or_default())
+    }),
+    ("contact_closure", |f, n| {
+        contact(f, n).and_then(|(one, at)| one.closure.get(at).copied())
+    }),
+    ("contact_closure_max", |f, n| {
+        contact(f, n).and_then(|(one, at)| one.closure_max.get(at).copied())
+    }),
     ("stress.xx", |f, n| tensor(&f.stress, n, Sym3::xx)),
     ("stress.yy", |f, n| tensor(&f.stress, n, Sym3::yy)),
     ("stress.zz", |f, n| tensor(&f.stress, n, Sym3::zz)),

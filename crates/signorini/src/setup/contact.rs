@@ -15,14 +15,14 @@ use signorini_io::case::{
     Sliding, Stick,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
-use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
 use signorini_mechanics::contact::friction;
 use signorini_mechanics::contact::law::{self, ContactLaw, Damping};
 use signorini_mechanics::contact::mortar::Basis;
+use signorini_mechanics::contact::{Critical, Measure};
 use signorini_mechanics::model::{
-    self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FrictionPart, Method,
-    PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
+    self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FluidPart,
+    FrictionPart, Method, PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
 };
 use signorini_mechanics::system::ReportedAs;
 use signorini_vocabulary::Entry;
@@ -85,10 +85,12 @@ fn contact(
             Area::Opposite => AreaPart::Opposite,
         },
         enforcement: enforcement(part, own, found),
-        measure: part.per.map(|per| match per {
-            Per::Node => Measure::Node,
-            Per::Area => Measure::Area,
-        }),
+        fluid: fluid(part, names, found),
+        measure: match part.per {
+            Some(Per::Node) => Some(Measure::Node),
+            Some(Per::Area) => Some(Measure::Area),
+            None => part.gasket.is_some().then_some(Measure::Area),
+        },
         friction: part
             .friction
             .as_ref()
@@ -355,6 +357,7 @@ pub(super) fn words(summary: &ContactSummary) -> String {
             format!("penalty {scale} per {per}")
         }
         model::Enforcement::Law(ref law) => format!("pressures of the law \"{}\"", law.name()),
+        model::Enforcement::Gasket(_) => "a gasket".to_owned(),
         model::Enforcement::Lagrange => "multipliers".to_owned(),
         model::Enforcement::Uzawa(_) | model::Enforcement::AugmentedNewton(_) => {
             format!("augmented Lagrangian with {scale} per {per}")
@@ -402,6 +405,23 @@ fn enforcement(part: &Contact, own: &Own, found: &mut Diagnostics) -> model::Enf
             model::Enforcement::Auto
         }
     };
+    if let Some(gasket) = &part.gasket {
+        let curve = |one: &case::Unloading| (one.from, one.curve.clone());
+        let unloading = gasket.unloading.iter().map(curve).collect();
+        let law = law::Gasket::new(
+            gasket.loading.clone(),
+            unloading,
+            gasket.onset,
+            gasket.tension,
+        );
+        return match law {
+            Ok(law) => model::Enforcement::Gasket(Arc::new(law)),
+            Err(fault) => {
+                found.push(unfit(&part.name, &part.place, &fault.to_string()));
+                model::Enforcement::Auto
+            }
+        };
+    }
     match &part.enforcement {
         Enforcement::Auto => model::Enforcement::Auto,
         Enforcement::Penalty(penalty) => {
@@ -456,6 +476,17 @@ fn friction(
     })
 }
 
+fn fluid(part: &Contact, names: &Names<'_>, found: &mut Diagnostics) -> Option<FluidPart> {
+    let of = part.fluid.as_ref()?;
+    Some(FluidPart {
+        pressure: of.pressure,
+        seeds: names.nodes(&of.from, found)?,
+        critical: of.critical.map_or(Critical::Fluid, Critical::Pressure),
+        ramp: of.ramp,
+        recedes: of.recedes,
+    })
+}
+
 /// Values that make no law.
 fn unfit(contact: &case::Name, place: &Place, fault: &str) -> Diagnostic {
     let message = format!("contact {}: {fault}", quoted(contact));
@@ -484,14 +515,17 @@ fn start(part: &case::Start, names: &Names<'_>, found: &mut Diagnostics) -> Star
 /// What steps make of contacts, one step after the other.
 pub(super) struct Changes<'a> {
     /// The contacts that act at some time, as they are now.
-    contacts: Vec<(&'a Contact, bool, Option<&'a Friction>)>,
+    contacts: Vec<(&'a Contact, bool, Option<&'a Friction>, Option<f64>)>,
     /// What the program brings.
     own: &'a Own,
 }
 
 impl<'a> Changes<'a> {
     pub fn new(case: &'a Case, own: &'a Own) -> Self {
-        let now = |contact: &'a Contact| (contact, contact.active, contact.friction.as_ref());
+        let now = |contact: &'a Contact| {
+            let fluid = contact.fluid.as_ref().map(|fluid| fluid.pressure);
+            (contact, contact.active, contact.friction.as_ref(), fluid)
+        };
         Self {
             contacts: acting(case).map(now).collect(),
             own,
@@ -504,22 +538,28 @@ impl<'a> Changes<'a> {
         for change in &step.contacts {
             let mut contacts = self.contacts.iter_mut().enumerate();
             let of_name = contacts.find(|(_, (contact, ..))| contact.name == change.name);
-            let Some((number, (_, active, sliding))) = of_name else {
+            let Some((number, (contact, active, sliding, fluid))) = of_name else {
                 found.push(without_effect(step, change, "it acts in no step"));
                 continue;
             };
-            let before = (*active, *sliding);
+            if change.fluid.is_some() && contact.fluid.is_none() {
+                found.push(without_effect(step, change, "it has no `fluid`"));
+                continue;
+            }
+            let before = (*active, *sliding, *fluid);
             *active = change.active.unwrap_or(*active);
             if let Some(changed) = &change.friction {
                 *sliding = changed.as_ref();
             }
-            if (*active, *sliding) == before {
+            *fluid = change.fluid.or(*fluid);
+            if (*active, *sliding, *fluid) == before {
                 found.push(without_effect(step, change, "all of it was so before"));
                 continue;
             }
             changes.push(ContactChange {
                 contact: number,
                 active: change.active,
+                fluid: change.fluid,
                 friction: change.friction.as_ref().map(|changed| {
                     let changed = changed.as_ref();
                     let contact = (&change.name, &change.place);

@@ -29,6 +29,41 @@ fn damping(fields: Fields<'_>) -> Damping {
     }
 }
 
+fn gasket(fields: Fields<'_>) -> Option<Gasket> {
+    let rows = |fields: Fields<'_>, key: &str| -> Vec<[f64; 2]> {
+        fields
+            .rows(key)
+            .filter_map(|row| numbers(row.get_ref()))
+            .collect()
+    };
+    let table = fields.table("gasket");
+    fields.has("gasket").then(|| Gasket {
+        loading: rows(table, "loading"),
+        unloading: table
+            .tables("unloading")
+            .into_iter()
+            .map(|(one, _)| Unloading {
+                from: one.number("from"),
+                curve: rows(one, "curve"),
+            })
+            .collect(),
+        onset: table.number_if("onset").map(|onset| onset.value),
+        tension: table.number("tension"),
+    })
+}
+
+fn fluid(fields: Fields<'_>) -> Option<Fluid> {
+    let table = fields.table("fluid");
+    let is_its_own = table.text_if("critical").is_some();
+    fields.has("fluid").then(|| Fluid {
+        pressure: table.number("pressure"),
+        from: table.text("from"),
+        critical: (!is_its_own).then(|| table.number("critical")),
+        ramp: table.number("ramp"),
+        recedes: table.flag("recede"),
+    })
+}
+
 impl Builder<'_> {
     /// The ways that heat takes across a contact.
     fn conductance(&mut self, fields: Fields<'_>) -> Vec<Conductance> {
@@ -89,6 +124,8 @@ impl Builder<'_> {
             per: per(fields),
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
+            gasket: gasket(fields),
+            fluid: fluid(fields),
             damping: damping(fields.table("damping")),
             conductance: self.conductance(fields),
             friction_heat: friction_heat(fields),
@@ -125,6 +162,7 @@ impl Builder<'_> {
         self.sides(&contact);
         self.what_goes_with_the_method(&contact, fields);
         self.what_goes_with_multipliers(&contact, fields);
+        self.what_goes_with_seals(&contact, fields);
         if contact.tied.is_some() {
             self.what_goes_with_a_tie(&contact, fields);
         }
@@ -243,6 +281,32 @@ impl Builder<'_> {
         }
     }
 
+    fn what_goes_with_seals(&mut self, contact: &Contact, fields: Fields<'_>) {
+        for (key, given) in [
+            ("gasket", contact.gasket.is_some()),
+            ("fluid", contact.fluid.is_some()),
+        ] {
+            if given && contact.is_with_itself() {
+                let message = format!("this `{key}` means nothing with  primary = \"self\"");
+                let place = fields.place(key);
+                self.error(
+                    &codes::CONTRADICTION,
+                    message,
+                    &place,
+                    "it is between two sides",
+                );
+            }
+            if contact.two_pass && given {
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!("`{key}` does not go with two `passes`, in which it would press twice"),
+                    &fields.place(key),
+                    "write  passes = 1",
+                );
+            }
+        }
+    }
+
     /// Multipliers leave no penetration, and nodes can follow only as many as there are of them: those at the nodes of
     /// one side.
     fn what_goes_with_multipliers(&mut self, contact: &Contact, fields: Fields<'_>) {
@@ -259,7 +323,7 @@ impl Builder<'_> {
             );
         }
         let damps = contact.damping.normal > 0.0 || contact.damping.tangential > 0.0;
-        if damps && (exact || contact.tied.is_some()) {
+        if damps && (exact || contact.tied.is_some() || contact.gasket.is_some()) {
             self.error(
                 &codes::CONTRADICTION,
                 "`damping` goes with contact by a `penalty` or a law of the pressure",
@@ -332,6 +396,16 @@ impl Builder<'_> {
                 "enforcement",
                 one_sided,
                 "a joint also pulls: give a number as `penalty`",
+            ),
+            (
+                "gasket",
+                contact.gasket.is_some(),
+                "a joint has one stiffness: give it as `penalty`",
+            ),
+            (
+                "fluid",
+                contact.fluid.is_some(),
+                "it comes between sides that may part",
             ),
         ] {
             if wrong {
@@ -521,6 +595,7 @@ impl Builder<'_> {
             name: fields.text("name"),
             active: fields.flag_if("active"),
             friction: fields.has("friction").then(|| self.friction(fields)),
+            fluid: fields.number_if("fluid").map(|pressure| pressure.value),
             place,
         }
     }

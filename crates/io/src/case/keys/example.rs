@@ -57,16 +57,18 @@ pub fn of(parts: &[Part], key: &Key, model: Option<&str>) -> String {
                 path += &format!(".{name}");
                 text += &format!("[[{path}]]\n");
             }
-            part => inline.push(part.name()),
+            part => inline.push(*part),
         }
     }
     let last = value(key);
-    let inner = inline
-        .iter()
-        .rev()
-        .fold(format!("{} = {last}", key.name), |inner, name| {
-            format!("{name} = {{ {inner} }}")
-        });
+    let inner =
+        inline
+            .iter()
+            .rev()
+            .fold(format!("{} = {last}", key.name), |inner, part| match part {
+                Part::List(name) => format!("{name} = [{{ {inner} }}]"),
+                part => format!("{} = {{ {inner} }}", part.name()),
+            });
     text + &inner + "\n"
 }
 

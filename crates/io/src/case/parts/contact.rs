@@ -33,6 +33,10 @@ pub struct Contact {
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
     /// increment has ended.
     pub remembers_traction: bool,
+    /// A gasket, in the place of `enforcement`.
+    pub gasket: Option<Gasket>,
+    /// A fluid that may come between the sides.
+    pub fluid: Option<Fluid>,
     /// What damps closed points in dynamic steps.
     pub damping: Damping,
     /// The velocity with which points leave an impact, over that with which they came, where impulses act.
@@ -82,6 +86,8 @@ impl Contact {
             per: None,
             friction: None,
             remembers_traction: false,
+            gasket: None,
+            fluid: None,
             damping: Damping::default(),
             restitution: 0.0.into(),
             conductance: Vec::new(),
@@ -389,8 +395,47 @@ pub struct ContactChange {
     pub active: Option<bool>,
     /// Its friction, which may be none; nothing: as before.
     pub friction: Option<Option<Friction>>,
+    /// The pressure of its fluid at the end of the step; none: as before.
+    pub fluid: Option<f64>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// A gasket: pressure against closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gasket {
+    /// Rows of closure and pressure of closing further than ever.
+    pub loading: Vec<[f64; 2]>,
+    /// Curves of opening.
+    pub unloading: Vec<Unloading>,
+    /// The closure up to which it opens as it closes; none: where the slope of loading has fallen by a tenth of its steepest.
+    pub onset: Option<f64>,
+    /// How stiff it is in being opened further than to pressure 0, over its first stiffness.
+    pub tension: f64,
+}
+
+/// How a gasket opens from a closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unloading {
+    /// The closure.
+    pub from: f64,
+    /// Rows of closure and pressure up to there.
+    pub curve: Vec<[f64; 2]>,
+}
+
+/// A fluid that may come between the sides of a contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fluid {
+    /// Its pressure at the end of the first step.
+    pub pressure: f64,
+    /// The nodes, of either side, where it is from the start.
+    pub from: Name,
+    /// The contact pressure up to which it enters; none: its own.
+    pub critical: Option<f64>,
+    /// The part of a step in which its pressure grows on points that it has just reached.
+    pub ramp: f64,
+    /// Whether points may dry.
+    pub recedes: bool,
 }
 
 /// What a contact that the program found is to results.

@@ -81,6 +81,11 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         }
         Method::Auto | Method::NodeToSegment => {}
     }
+    entries.extend(contact.gasket.as_ref().map(|one| ("gasket", gasket(one))));
+    entries.extend(contact.fluid.as_ref().map(|one| ("fluid", fluid(one))));
+    if contact.gasket.is_some() {
+        entries.retain(|(key, _)| *key != "enforcement");
+    }
     match contact.tied {
         None => entries.push(("start", start(&contact.start))),
         Some(_) => entries.extend(closing(&contact.start).map(|start| ("start", start))),
@@ -217,6 +222,33 @@ fn friction(friction: Option<&Friction>) -> Value {
     Value::Table(entries)
 }
 
+fn gasket(gasket: &Gasket) -> Value {
+    let mut entries: Entries = vec![("loading", list(&gasket.loading))];
+    if !gasket.unloading.is_empty() {
+        let curve = |one: &Unloading| {
+            Value::Table(vec![("from", one.from.into()), ("curve", list(&one.curve))])
+        };
+        let curves = gasket.unloading.iter().map(curve);
+        entries.push(("unloading", Value::List(curves.collect())));
+    }
+    entries.extend(gasket.onset.map(|onset| ("onset", onset.into())));
+    entries.push(("tension", gasket.tension.into()));
+    Value::Table(entries)
+}
+
+fn fluid(fluid: &Fluid) -> Value {
+    Value::Table(vec![
+        ("pressure", fluid.pressure.into()),
+        ("from", (&fluid.from.value).into()),
+        (
+            "critical",
+            fluid.critical.map_or("fluid".into(), Value::Number),
+        ),
+        ("ramp", fluid.ramp.into()),
+        ("recede", fluid.recedes.into()),
+    ])
+}
+
 fn tied(tied: &Tied) -> Value {
     let offset = match tied.offset {
         Offset::Keep => "keep",
@@ -273,6 +305,7 @@ pub(super) fn contact_change(change: &ContactChange) -> Entries {
     entries.extend(change.active.map(|active| ("active", active.into())));
     let friction = change.friction.as_ref();
     entries.extend(friction.map(|friction| ("friction", self::friction(friction.as_ref()))));
+    entries.extend(change.fluid.map(|pressure| ("fluid", pressure.into())));
     entries
 }
 

@@ -75,6 +75,8 @@ pub(super) static CONTACT: Table = Table {
             "what sticking points remember: the place where they stick; or, as OOFEM has it, the traction of the last increment, without friction in the one in which they close",
         )
         .or(Default::Text("place")),
+        key("gasket", Shape::Table(&GASKET), GASKET.doc).hints(&["seal"]),
+        key("fluid", Shape::Table(&FLUID), FLUID.doc).hints(&["penetration", "leak"]),
         key("damping", Shape::Table(&DAMPING), DAMPING.doc).hints(&["viscosity"]),
         key(
             "restitution",
@@ -165,6 +167,9 @@ pub(super) static CONTACT: Table = Table {
         Rule::Needs("self", "all"),
         Rule::Needs("exclude", "all"),
         Rule::Needs("pair", "all"),
+        Rule::AtMostOne(&["all", "gasket"]),
+        Rule::AtMostOne(&["all", "fluid"]),
+        Rule::AtMostOne(&["gasket", "enforcement"]),
     ],
 };
 
@@ -317,6 +322,91 @@ static FRICTION_HEAT: Table = Table {
             "the part of that which the secondary side takes",
         )
         .or(Default::Number(0.5)),
+    ],
+    rules: &[],
+};
+
+static GASKET: Table = Table {
+    heading: "gasket",
+    doc: "a gasket between the sides, in the place of `enforcement`: pressure against closure, the way by which a gap has closed",
+    keys: &[
+        key(
+            "loading",
+            CLOSURES,
+            "rows [closure, pressure] of closing further than ever; it begins at pressure 0 and goes on with its last slope",
+        )
+        .required(),
+        key(
+            "unloading",
+            Shape::Tables(&UNLOADING),
+            "curves of opening, by the closures that they begin at; absent: it opens as it closes",
+        )
+        .hints(&["opening"]),
+        key(
+            "onset",
+            POSITIVE,
+            "the closure up to which it opens as it closes; absent: where the slope of `loading` has fallen by a tenth of its steepest",
+        )
+        .hints(&["yield"]),
+        key(
+            "tension",
+            NOT_NEGATIVE,
+            "how stiff it is in being opened further than to pressure 0, over its first stiffness",
+        )
+        .or(Default::Number(0.0)),
+    ],
+    rules: &[Rule::Needs("onset", "unloading")],
+};
+
+static UNLOADING: Table = Table {
+    heading: "unloading",
+    doc: "how it opens from a closure",
+    keys: &[
+        key("from", POSITIVE, "the largest closure so far").required(),
+        key(
+            "curve",
+            CLOSURES,
+            "rows [closure, pressure], from the closure that stays at pressure 0 to `from`, on `loading`",
+        )
+        .required(),
+    ],
+    rules: &[],
+};
+const CLOSURES: Shape = Shape::List(
+    &Shape::Row("[closure, pressure]", &[ANY, NOT_NEGATIVE]),
+    2,
+    MANY,
+);
+
+static FLUID: Table = Table {
+    heading: "fluid",
+    doc: "a fluid that comes between the sides from their rim, and presses them apart where it is",
+    keys: &[
+        key(
+            "pressure",
+            NOT_NEGATIVE,
+            "its pressure at the end of the first step, reached linearly; it stays, unless a [[step.contact]] has another `fluid`",
+        )
+        .required(),
+        key("from", Shape::Text, "nodes of either side where it is from the start").required(),
+        key(
+            "critical",
+            Shape::Either(&[NOT_NEGATIVE, Shape::Choice(&[word("fluid")])]),
+            "the contact pressure up to which it enters: a number, 0 where contact is lost; \"fluid\": its own pressure",
+        )
+        .or(Default::Number(0.0)),
+        key(
+            "ramp",
+            NOT_NEGATIVE,
+            "the part of the step in which its pressure grows on points that it has just reached",
+        )
+        .or(Default::Number(0.001)),
+        key(
+            "recede",
+            Shape::Flag,
+            "whether points dry after an increment at whose end they are pressed by 1.05 times `critical`, or more",
+        )
+        .or(Default::Flag(true)),
     ],
     rules: &[],
 };
@@ -523,6 +613,11 @@ pub(super) static CONTACT_CHANGE: Table = Table {
         key("name", Shape::Text, "the contact").required(),
         key("active", Shape::Flag, "whether it acts"),
         FRICTION_KEY,
+        key(
+            "fluid",
+            NOT_NEGATIVE,
+            "the pressure of its fluid at the end of the step, reached linearly",
+        ),
     ],
-    rules: &[Rule::AtLeastOne(&["active", "friction"])],
+    rules: &[Rule::AtLeastOne(&["active", "friction", "fluid"])],
 };

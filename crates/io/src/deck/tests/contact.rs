@@ -34,7 +34,7 @@ fn laws_of_contact_are_automatic_or_those_of_the_deck() {
 }
 
 /// Two cubes, a pair between them, and this law.
-fn pair(kind: &str, law: &str, steps: &str) -> String {
+pub(super) fn pair(kind: &str, law: &str, steps: &str) -> String {
     let cards = format!(
         "*NODE\n11,0,0,1\n12,1,0,1\n13,1,1,1\n14,0,1,1\n15,0,0,2\n16,1,0,2\n17,1,1,2\n18,0,1,2\n\
          *ELEMENT, TYPE=C3D8, ELSET=UPPER\n2,11,12,13,14,15,16,17,18\n*NSET, NSET=FEET\n11,12,13,14\n\
@@ -47,7 +47,7 @@ fn pair(kind: &str, law: &str, steps: &str) -> String {
 const BY_NODES: &str = "*SURFACE, NAME=FOOT, TYPE=NODE\nFEET\n\
                         *CONTACT PAIR, INTERACTION=I, TYPE=NODE TO SURFACE, ADJUST=FEET\nFOOT, TABLE";
 
-const BY_FACES: &str = "*SURFACE, NAME=FOOT\n2, S1\n\
+pub(super) const BY_FACES: &str = "*SURFACE, NAME=FOOT\n2, S1\n\
                         *CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nFOOT, TABLE";
 
 #[test]

@@ -5,6 +5,7 @@ mod general;
 mod mass;
 mod materials;
 mod motion;
+mod penetration;
 mod sections;
 mod silent;
 mod steps;

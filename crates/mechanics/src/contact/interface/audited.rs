@@ -163,9 +163,17 @@ impl Rules for Obeyed<'_> {
         self.ways.get(node).copied().unwrap_or_default()
     }
 
-    /// By halving: pressures fall with the gap.
+    /// By halving: pressures fall with the gap. What a law with a past has been closed by, it may be closed by.
     fn gap(&self, node: usize, pressure: f64) -> f64 {
         let parts = &self.of.parts;
+        if parts.gasket.is_some() {
+            return -self
+                .frame
+                .closure_max
+                .get(node)
+                .copied()
+                .unwrap_or_default();
+        }
         let (law, scale) = (parts.law.as_ref(), &parts.scale);
         if law.multiplier() != Multiplier::None {
             return 0.0;

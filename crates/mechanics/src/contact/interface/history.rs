@@ -77,6 +77,7 @@ impl Interface {
             return Ok(false);
         };
         self.resize(origins.len());
+        self.wetting.follow(&origins);
         self.search(&at).map_err(|e| self.failed(&e))?;
         self.accepted.clone_from(&self.now);
         // the coupling is known from these rows alone, in a run that was resumed, too
@@ -256,6 +257,7 @@ impl Interface {
         for (row, memory) in self.history.accepted.iter().enumerate() {
             let mut memory = *memory;
             let lambda = self.lambda(row, state);
+            self.remember_gap(row, state, &mut memory.lambda, &mut rows)?;
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut rows)?;
             if self.parts.law.multiplier() == Multiplier::Frozen {
                 let filled = rows.rows().first().filter(|_| acts);
@@ -375,6 +377,7 @@ impl Interface {
         let shifts = self.parts.shifts.iter();
         let shifts: Vec<f64> = shifts.flat_map(|s| [s.constant, s.fading]).collect();
         out.put(name("shifts"), &shifts);
+        self.store_fluid(out);
     }
 
     pub(super) fn restore(&mut self, from: &Archive) -> Result<(), ArchiveError> {
@@ -462,6 +465,7 @@ impl Interface {
         let (shifts, _) = shifts.as_chunks();
         let shift = |&[constant, fading]: &[f64; 2]| Shift { constant, fading };
         self.parts.shifts = shifts.iter().map(shift).collect();
+        self.restore_fluid(from)?;
         self.now.pairs.clone_from(&self.accepted.pairs);
         self.resumed = self.started;
         self.history.begin();

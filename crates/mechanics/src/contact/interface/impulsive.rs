@@ -25,6 +25,16 @@ impl Interface {
                 "contact \"{name}\" is joined by multipliers, which an explicit step has no equations for: join it by a penalty"
             ));
         }
+        if self.parts.fluid.is_some() {
+            return Some(format!(
+                "contact \"{name}\" has a `fluid`, whose front explicit steps do not look for: take an implicit method"
+            ));
+        }
+        if self.parts.gasket.is_some() {
+            return Some(format!(
+                "contact \"{name}\" is a `gasket`, which explicit steps do not take: take an implicit method"
+            ));
+        }
         if self.parts.damping.acts() {
             return Some(format!(
                 "contact \"{name}\" damps, which explicit steps do not: delete `damping`, or take an implicit method"
@@ -41,6 +51,12 @@ impl Interface {
 
     /// Why a step with inertia whose equations are solved cannot take it; nothing where it can.
     pub(super) fn not_implicit(&self) -> Option<String> {
+        if self.step.conserves() && (self.parts.gasket.is_some() || self.parts.fluid.is_some()) {
+            return Some(format!(
+                "contact \"{}\" is a `gasket`, or has a `fluid`, which take energy from the sides or give it: take the method \"generalized-alpha\"",
+                self.parts.name
+            ));
+        }
         let yields = self.parts.restitution > 0.0 && !self.parts.is_rigid;
         yields.then(|| {
             format!(

@@ -7,7 +7,9 @@ mod coupled;
 mod damped;
 mod drift;
 mod dynamic_gap;
+mod fluid;
 mod freedom;
+mod front;
 mod history;
 mod impulsive;
 mod inherited;
@@ -20,6 +22,7 @@ mod near;
 mod pairing;
 mod parts;
 mod passing;
+mod past;
 mod report;
 mod restless;
 mod reversals;
@@ -27,12 +30,14 @@ mod rows;
 mod term;
 mod thermal;
 mod weighted;
+mod wet;
 
 pub use inherited::inherit;
 pub use near::closest_points;
 pub use parts::{
     Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, nmultiplier,
 };
+pub use wet::{Critical, Fluid};
 
 pub use thermal::{ContactHeat, FrictionHeat};
 
@@ -57,6 +62,7 @@ use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 use thermal::ThermalScratch;
+use wet::Wetting;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
 pub struct Interface {
@@ -115,6 +121,10 @@ pub struct Interface {
     ends: Ends,
     /// The length of the increment; 0 where none has begun.
     duration: f64,
+    /// When it begins.
+    increment_start: f64,
+    /// Where a fluid is.
+    wetting: Wetting,
 }
 
 /// Overlaps that an increment allows for.
@@ -181,6 +191,8 @@ impl Interface {
             gaps: DynamicGaps::default(),
             ends: Ends::default(),
             duration: 0.0,
+            increment_start: 0.0,
+            wetting: Wetting::default(),
         }
     }
 
@@ -220,6 +232,7 @@ impl Interface {
                 stick => stick.unwrap_or(Stick::Stiffness(0.0)),
             },
             scale: &self.parts.scale,
+            has_past: self.parts.gasket.is_some(),
             bond: self.parts.bond.is_some(),
             bond_tangential: self.parts.bond_tangential,
             vectors: self.parts.has_vectors(),
@@ -436,6 +449,8 @@ impl Interface {
         self.history.begin();
         self.begin_limits(from)?;
         self.begin_gaps(from)?;
+        self.increment_start = from.time;
+        self.begin_fluid(from)?;
         self.stick(&at).map_err(|e| self.failed(&e))
     }
 

@@ -254,6 +254,10 @@ impl Interface {
         let Some(pair) = &self.now.pairs[row] else {
             return false;
         };
+        if self.parts.fluid.is_some() {
+            // a fluid may come to any row
+            return true;
+        }
         let laws = self.laws();
         let gap = pair.gap + self.shift(row, trial.time);
         let acts = || {
@@ -266,7 +270,12 @@ impl Interface {
     }
 
     /// The facets that a row meets and that of its anchor, each once.
-    fn facets_of(&self, row: usize, averaged: Option<&dyn Averaged>, out: &mut Vec<u32>) {
+    pub(super) fn facets_of(
+        &self,
+        row: usize,
+        averaged: Option<&dyn Averaged>,
+        out: &mut Vec<u32>,
+    ) {
         let first = out.len();
         let anchors = [
             self.now.pairs[row].map(|p| p.anchor),

@@ -1,9 +1,10 @@
 //! What an interface is made from.
 
 use super::thermal::ContactHeat;
+use super::wet::Fluid;
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
-use crate::contact::law::{ContactLaw, Damping, Penalty, Scale};
+use crate::contact::law::{ContactLaw, Damping, Gasket, Penalty, Scale};
 use crate::system::ReportedAs;
 use signorini_geometry::surface::SurfaceError;
 use signorini_geometry::tensor::Vec3;
@@ -81,6 +82,8 @@ pub struct InterfaceParts {
     pub discretization: Box<dyn Discretization>,
     /// The contact law.
     pub law: Arc<dyn ContactLaw>,
+    /// The same, where it is one with a past.
+    pub gasket: Option<Arc<Gasket>>,
     /// What becomes of it in each step; the last goes on.
     pub phases: Vec<ContactPhase>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -103,6 +106,8 @@ pub struct InterfaceParts {
     pub shifts: Vec<Shift>,
     /// Which increments allow for what overlaps at their start.
     pub allowance: Allowance,
+    /// A fluid that may come between the sides.
+    pub fluid: Option<Fluid>,
     /// What damps the motion of closed rows, of laws without a multiplier.
     pub damping: Damping,
     /// How heat goes across it, where temperatures are unknowns.
@@ -144,6 +149,7 @@ impl InterfaceParts {
             pair,
             discretization,
             law: Arc::new(Penalty),
+            gasket: None,
             phases: Vec::new(),
             remembers_traction: false,
             bond: None,
@@ -160,6 +166,7 @@ impl InterfaceParts {
             heat: None,
             is_rigid: false,
             allowance: Allowance::default(),
+            fluid: None,
             damping: Damping::default(),
             restitution: 0.0,
             bend: None,

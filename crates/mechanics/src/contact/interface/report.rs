@@ -192,6 +192,8 @@ impl Interface {
             }
         }
         let (mut report, across) = sums.divide();
+        self.describe_closures(state, &mut report)?;
+        self.describe_fluid(state, &mut report)?;
         report.work_friction = self.history.work;
         if self.history.damped[0] != 0.0 {
             frame.energies.get_or_insert_default().damping += self.history.damped[0];
@@ -427,7 +429,7 @@ impl Interface {
     }
 
     /// What a unit of pressure does to the secondary side; moment about the origin.
-    fn pushed(&self, rows: &Rows, filled: &Row, state: &State) -> Resultant {
+    pub(super) fn pushed(&self, rows: &Rows, filled: &Row, state: &State) -> Resultant {
         let secondary = rows.secondary();
         let mut sum = Resultant::default();
         let mut column = 0;

@@ -82,6 +82,7 @@ impl Term for Interface {
         for (row, answer) in share.zip(asked.answers()) {
             self.act((row, answer), trial, order, scratch, out)?;
             self.conduct((row, answer), trial, order, scratch, out)?;
+            self.add_fluid(row, trial, order, scratch, out)?;
         }
         scratch.asked = asked;
         if chunk == 0 {
@@ -104,6 +105,7 @@ impl Term for Interface {
         let mut total = 0.0;
         for k in rows::chunk(chunk, self.parts.discretization.nrow()) {
             total += self.measure(k) * self.energy_of(k, trial, rows)?.unwrap_or(0.0);
+            total += self.fluid_energy(k, trial, rows)?;
         }
         Ok(Some(total))
     }
@@ -168,14 +170,16 @@ impl Adaptive for Interface {
         self.history.damped[1] = self.damped(trial)?;
         self.reach_ends(trial)?;
         let limits = self.renew_limits(trial)?;
-        if self.parts.law.multiplier() != Multiplier::Frozen {
-            return Ok(limits);
+        let frozen = match self.parts.law.multiplier() {
+            Multiplier::Frozen => self.augment(trial)?,
+            _ => Verdict::Settled,
+        };
+        match (frozen, limits) {
+            // pressures are those that were found
+            (Verdict::Settled, Verdict::Settled) => self.renew_front(trial),
+            (Verdict::Settled, limits) => Ok(limits),
+            (changed, _) => Ok(changed),
         }
-        let multipliers = self.augment(trial)?;
-        Ok(match multipliers {
-            Verdict::Settled => limits,
-            changed => changed,
-        })
     }
 
     fn aid(&mut self, aid: Aid) -> bool {
@@ -249,6 +253,7 @@ impl Choices for Interface {
         self.now.clone_from(&self.accepted);
         self.judged.clone_from(&self.accepted_judged);
         self.history.reject();
+        self.wetting.reject();
         self.flights = 0;
         self.changes.fill(0);
         self.reversals.reset(self.parts.discretization.nrow());
@@ -257,6 +262,7 @@ impl Choices for Interface {
 
 impl Stored for Interface {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.keep_fluid(state)?;
         self.keep_gaps();
         self.ends.keep();
         self.history.damped[0] += std::mem::take(&mut self.history.damped[1]);

@@ -12,6 +12,7 @@
 //! |---|---|---|---|
 //! | [`Penalty`] | none | ε⟨−g⟩ | |
 //! | [`Table`], [`Exponential`], [`Arctangent`] | none | a curve that falls with the gap | |
+//! | [`Gasket`] | its place has the largest closure so far | a curve in closing, others in opening | |
 //! | [`Uzawa`] | frozen | ⟨λ − εg⟩ | then λ ← p |
 //! | [`AugmentedNewton`] | unknown | ⟨λ − εg⟩ | (p − λ)/ε |
 //! | [`Lagrange`] | unknown | λ where λ > cg, else 0 | (⟨λ − cg⟩ − λ)/c |
@@ -19,7 +20,7 @@
 //!
 //! What heat flows between the sides is a law of its own, [`Conductance`].
 //!
-//! Laws hold no state and have never heard of a degree of freedom. The sign of c makes ∂c/∂u the transpose of ∂r/∂λ.
+//! Laws hold no state (what [`Gasket::remember`] gives is kept by the row, and frozen in an increment) and have never heard of a degree of freedom. The sign of c makes ∂c/∂u the transpose of ∂r/∂λ.
 //! [`Lagrange`] is the primal-dual active set; its c > 0 changes the way to the solution and not the solution.
 //!
 //! To add one: a file that implements [`ContactLaw`] and describes its keys, and one line in [`TABLE`]. Sources: Hüeber and
@@ -32,6 +33,7 @@ mod conductance;
 mod damping;
 mod definition;
 mod exponential;
+mod gasket;
 mod impulse;
 mod lagrange;
 mod penalty;
@@ -47,6 +49,7 @@ pub use damping::Damping;
 use definition::TOUCH;
 pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};
 pub use exponential::Exponential;
+pub use gasket::{Gasket, GasketError};
 pub(super) use impulse::Impulse;
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;

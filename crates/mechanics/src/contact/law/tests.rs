@@ -32,7 +32,14 @@ fn all() -> Vec<Box<dyn ContactLaw>> {
             within: 0.5,
         }),
         Box::new(Table::new(rows).unwrap()),
+        Box::new(gasket()),
     ]
+}
+
+fn gasket() -> Gasket {
+    let loading = vec![[0.0, 0.0], [0.1, 4.0], [0.5, 8.0]];
+    let opening = vec![[0.2, 0.0], [0.3, 1.0], [0.5, 8.0]];
+    Gasket::new(loading, vec![(0.5, opening)], None, 0.01).unwrap()
 }
 
 const GAPS: [f64; 6] = [-0.5, -0.1501, -0.01, 0.02, 0.25, 1.0];

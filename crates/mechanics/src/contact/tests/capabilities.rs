@@ -35,6 +35,8 @@ fn scenes() -> impl Iterator<Item = Scene> {
             bond: false,
             tangential: None,
             damping: Damping::default(),
+            fluid: None,
+            gasket: None,
         };
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();

@@ -38,6 +38,8 @@ fn error(
         bond: false,
         tangential: None,
         damping,
+        fluid: None,
+        gasket: None,
     };
     let mut scene = Scene::new(kind, method, choice, seed);
     let mut random = Random::new(seed + 77);

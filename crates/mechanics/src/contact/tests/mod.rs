@@ -4,6 +4,7 @@
 mod capabilities;
 mod carried;
 mod dual;
+mod fluid;
 mod held;
 mod interface;
 mod own;

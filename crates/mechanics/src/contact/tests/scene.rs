@@ -7,8 +7,10 @@ use super::super::discretization::{
     SurfacePair, areas_inside, mortar,
 };
 use super::super::friction::{FrictionLaw, Stick};
-use super::super::law::{ContactLaw, Damping, Scale};
-use super::super::{ContactPhase, Interface, InterfaceParts, Measure, closest_points, nmultiplier};
+use super::super::law::{ContactLaw, Damping, Gasket, Scale};
+use super::super::{
+    ContactPhase, Fluid, Interface, InterfaceParts, Measure, closest_points, nmultiplier,
+};
 use super::{Random, facets_of, next_increment, with_mid_nodes};
 use crate::system::{
     Adaptive, Choices, ContactFrame, Dof, Elimination, Frame, Layout, NO_DOF, Order, PatternSink,
@@ -90,6 +92,10 @@ pub(crate) struct Choice {
     pub tangential: Option<f64>,
     /// What damps along the normal.
     pub damping: Damping,
+    /// What comes between the sides.
+    pub fluid: Option<Fluid>,
+    /// The law, where it is a gasket.
+    pub gasket: Option<Arc<Gasket>>,
 }
 
 pub(crate) struct Scene {
@@ -389,6 +395,8 @@ impl Scene {
             bond,
             bond_tangential: choice.tangential,
             damping: choice.damping,
+            fluid: choice.fluid,
+            gasket: choice.gasket,
             measure: Measure::Area,
             area,
             scale: Scale {

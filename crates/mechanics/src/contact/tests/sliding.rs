@@ -4,7 +4,7 @@
 use super::super::discretization::{PointToSegment, SlidingRange, SurfacePair};
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Sliding, Stick, Tresca};
 use super::super::law::{
-    AugmentedNewton, ContactLaw, Damping, Lagrange, Multiplier, Penalty, Uzawa,
+    AugmentedNewton, ContactLaw, Damping, Gasket, Lagrange, Multiplier, Penalty, Uzawa,
 };
 use super::super::{Allowance, ContactPhase, Interface, InterfaceParts};
 use super::scene::{Choice, Kind, Method, Scene};
@@ -501,6 +501,8 @@ fn rub(law: Box<dyn ContactLaw>) -> Choice {
         bond: false,
         tangential: None,
         damping: Damping::default(),
+        fluid: None,
+        gasket: None,
     }
 }
 
@@ -572,8 +574,18 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         bond: true,
         tangential: None,
         damping: Damping::default(),
+        fluid: None,
+        gasket: None,
     };
-    let choices: [&dyn Fn() -> Choice; 6] = [
+    let gasket = || {
+        let loading = vec![[0.0, 0.0], [0.01, 0.2], [0.06, 0.5], [0.2, 2.0]];
+        let opening = (0.2, vec![[0.05, 0.0], [0.2, 2.0]]);
+        rub(Box::new(
+            Gasket::new(loading, vec![opening], None, 0.0).unwrap(),
+        ))
+    };
+    let choices: [&dyn Fn() -> Choice; 7] = [
+        &gasket,
         &|| rub(Box::new(Penalty)),
         &|| rub(Box::new(Uzawa)),
         &|| rub(Box::new(Lagrange)),
@@ -642,6 +654,8 @@ fn planes_of_an_increment_are_those_at_its_start() {
             bond: false,
             tangential: None,
             damping: Damping::default(),
+            fluid: None,
+            gasket: None,
         };
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);

@@ -3,8 +3,8 @@
 
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
 use super::super::law::{
-    Arctangent, AugmentedNewton, ContactLaw, Damping, Exponential, Lagrange, Multiplier, Penalty,
-    Table, Uzawa,
+    Arctangent, AugmentedNewton, ContactLaw, Damping, Exponential, Gasket, Lagrange, Multiplier,
+    Penalty, Table, Uzawa,
 };
 use super::scene::{Choice, Kind, Method, PENALTY, Scene};
 use super::{Random, largest, next_increment};
@@ -31,7 +31,17 @@ fn laws() -> Vec<Box<dyn ContactLaw>> {
         Box::new(Uzawa),
         Box::new(AugmentedNewton),
         Box::new(Lagrange),
+        Box::new(gasket()),
     ]
+}
+
+/// The place of the gasket among the laws.
+const GASKET: usize = 7;
+
+fn gasket() -> Gasket {
+    let loading = vec![[0.0, 0.0], [0.01, 0.2], [0.06, 0.5], [0.2, 2.0]];
+    let opening = vec![[0.05, 0.0], [0.15, 0.3], [0.2, 2.0]];
+    Gasket::new(loading, vec![(0.2, opening)], None, 0.0).unwrap()
 }
 
 type Friction = Option<(Arc<dyn FrictionLaw>, Stick)>;
@@ -57,7 +67,7 @@ fn frictions() -> Vec<Friction> {
     std::iter::once(None).chain(rough).collect()
 }
 
-fn methods(kind: Kind) -> Vec<Method> {
+pub(super) fn methods(kind: Kind) -> Vec<Method> {
     let on_surfaces = vec![
         Method::NodeToSegment,
         Method::SmallSliding,
@@ -91,10 +101,10 @@ struct Seen {
 
 /// The worst relative error of the tangent in the rows of displacements, and in those of multipliers.
 #[derive(Default)]
-struct Worst {
-    displacement: f64,
-    multiplier: f64,
-    tried: usize,
+pub(super) struct Worst {
+    pub displacement: f64,
+    pub multiplier: f64,
+    pub tried: usize,
 }
 
 impl Worst {
@@ -105,7 +115,7 @@ impl Worst {
     }
 }
 
-fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
+pub(super) fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
     let mut random = Random::new(seed);
     let base = scene.state.clone();
     let n = scene.layout.ndof();
@@ -210,6 +220,8 @@ fn check(
             bond,
             tangential,
             damping: Damping::default(),
+            fluid: None,
+            gasket: (law == GASKET).then(|| Arc::new(gasket())),
         };
         let multiplier = choice.law.multiplier();
         let rubs = friction.is_some();
@@ -350,6 +362,8 @@ fn multipliers_that_stick_act_as_they_hold() {
                     bond: false,
                     tangential: None,
                     damping: Damping::default(),
+                    fluid: None,
+                    gasket: None,
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
@@ -390,6 +404,8 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
         bond: false,
         tangential: None,
         damping: Damping::default(),
+        fluid: None,
+        gasket: None,
     };
     let kind = Kind::Elements("quad4");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);

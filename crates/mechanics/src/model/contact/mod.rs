@@ -1,5 +1,6 @@
 //! From the parts of a contact to its interface.
 
+mod fluid;
 mod joined;
 mod junctions;
 mod open_edges;
@@ -156,13 +157,7 @@ impl Context<'_> {
         let sizes = of.map(|s| s.map(|s| self.sizes(s)));
         let share = self.share(of);
         let shear_part = self.shear_part(of.into_iter().flatten());
-        let length = match (&sizes[0], &sizes[1]) {
-            (Some(s), _) | (None, Some(s)) => s.mean,
-            (None, None) => self.size_of_cells(&sides.pair.points),
-        };
-        let largest = sizes.iter().flatten().map(|s| s.largest);
-        let largest = largest.fold(0.0, f64::max);
-        let size = if largest > 0.0 { largest } else { length };
+        let [length, size] = self.extents(&sides.pair.points, &sizes);
         let at = self.placement();
         sides.reach_locally(&at, part);
         let found = sides.look_around(&at, part.reach, REACH * size);
@@ -190,6 +185,7 @@ impl Context<'_> {
         };
         let bond = part.tie.map(|tie| start::bonds(&sides, &found, tie, &at));
         let bond = bond.transpose().map_err(surface_error)?;
+        let fluid = steps.fluid(&sides, part)?;
         let summary = ContactSummary {
             name: part.name.clone(),
             enforcement: in_use(&part.enforcement, sides.law.multiplier(), penalty),
@@ -212,6 +208,7 @@ impl Context<'_> {
             shifts: start::shifts(&found, bend.as_ref(), part),
             bend,
             allowance: start::allowance(part),
+            fluid,
             damping: part.damping,
             is_rigid: !softest.is_finite(),
             restitution: part.restitution,
@@ -221,6 +218,7 @@ impl Context<'_> {
             }),
             discretization: sides.discretization,
             pair: sides.pair,
+            gasket: part.enforcement.gasket(),
             law: sides.law,
             phases: steps.phases(sides.contact, variant, penalty),
             remembers_traction: part.remembers_traction,
@@ -301,6 +299,18 @@ impl Context<'_> {
         let extent = |n: &NodeId| Some(self.spaces.extent_of_node(*n, at(n)?));
         let extents = points.iter().filter_map(extent);
         length * extents.sum::<f64>() / points.len().max(1) as f64
+    }
+
+    /// The mean size of the facets of a contact, and the largest.
+    fn extents(&self, points: &[NodeId], sizes: &[Option<Sizes>; 2]) -> [f64; 2] {
+        let length = match sizes {
+            [Some(s), _] | [None, Some(s)] => s.mean,
+            [None, None] => self.size_of_cells(points),
+        };
+        let largest = sizes.iter().flatten().map(|s| s.largest);
+        let largest = largest.fold(0.0, f64::max);
+        let size = if largest > 0.0 { largest } else { length };
+        [length, size]
     }
 
     /// The mean size of the cells around bare nodes: the length of their shortest edges.

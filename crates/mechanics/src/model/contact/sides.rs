@@ -184,6 +184,7 @@ fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Arc<dyn ContactLaw
         Enforcement::Auto if takes_multipliers => Arc::new(Lagrange),
         Enforcement::Auto | Enforcement::Penalty(_) => Arc::new(Penalty),
         Enforcement::Law(law) => Arc::clone(law),
+        Enforcement::Gasket(gasket) => Arc::clone(gasket) as _,
         Enforcement::Lagrange => Arc::new(Lagrange),
         Enforcement::Uzawa(_) => Arc::new(Uzawa),
         Enforcement::AugmentedNewton(_) => Arc::new(AugmentedNewton),

@@ -2,8 +2,8 @@
 
 use crate::contact::discretization::{SlidingRange, mortar};
 use crate::contact::friction::{Coulomb, FrictionLaw};
-use crate::contact::law::{ContactLaw, Damping};
-use crate::contact::{ContactHeat, Measure};
+use crate::contact::law::{ContactLaw, Damping, Gasket};
+use crate::contact::{ContactHeat, Critical, Measure};
 use crate::system::ReportedAs;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
@@ -141,6 +141,8 @@ pub enum Enforcement {
     Penalty(Option<f64>),
     /// A curve of gap and pressure, one of [`law::TABLE`](crate::contact::law::TABLE) or any other.
     Law(Arc<dyn ContactLaw>),
+    /// A gasket.
+    Gasket(Arc<Gasket>),
     /// Multipliers, with a primal-dual active set.
     Lagrange,
     /// Multipliers of an augmented Lagrangian that are updated between solutions.
@@ -255,6 +257,8 @@ pub struct ContactPart {
     pub enforcement: Enforcement,
     /// What the law's pressure refers to; `None`: area where the secondary side has one.
     pub measure: Option<Measure>,
+    /// A fluid that may come between the sides.
+    pub fluid: Option<FluidPart>,
     /// What damps the motion of closed points in dynamic steps.
     pub damping: Damping,
     /// The velocity with which points leave an impact, over that with which they came, where impulses act.
@@ -309,10 +313,19 @@ impl FrictionPart {
 }
 
 impl Enforcement {
+    /// The gasket, where it is one.
+    #[must_use]
+    pub fn gasket(&self) -> Option<Arc<Gasket>> {
+        match self {
+            Self::Gasket(gasket) => Some(Arc::clone(gasket)),
+            _ => None,
+        }
+    }
+
     /// Whether it is a curve of gap and pressure that stands for itself, without a penalty.
     #[must_use]
     pub const fn is_curve(&self) -> bool {
-        matches!(self, Self::Law(_))
+        matches!(self, Self::Law(_) | Self::Gasket(_))
     }
 }
 
@@ -329,6 +342,7 @@ impl ContactPart {
             area: AreaPart::default(),
             enforcement: Enforcement::Auto,
             measure: None,
+            fluid: None,
             damping: Damping::default(),
             restitution: 0.0,
             heat: None,
@@ -355,6 +369,23 @@ pub struct ContactChange {
     pub active: Option<bool>,
     /// Its friction from now on; `None`: as before.
     pub friction: Option<Option<FrictionPart>>,
+    /// The pressure of its fluid at the end of the step; `None`: as before.
+    pub fluid: Option<f64>,
+}
+
+/// A fluid that may come between the sides of a contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FluidPart {
+    /// Its pressure at the end of the first step, and later unless a step changes it.
+    pub pressure: f64,
+    /// The nodes, of either side, where it is from the start.
+    pub seeds: Vec<NodeId>,
+    /// The contact pressure up to which it enters.
+    pub critical: Critical,
+    /// The part of a step in which its pressure grows on points that it has just reached.
+    pub ramp: f64,
+    /// Whether points may dry.
+    pub recedes: bool,
 }
 
 /// On what of the primary side points may rest.

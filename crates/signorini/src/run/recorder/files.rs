@@ -8,6 +8,7 @@ use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
 use crate::run::frequencies::Frequencies;
 use crate::run::idle::Idle;
+use crate::run::leaks::Leaks;
 use crate::run::narration::Narrator;
 use crate::run::news::{Effort, Listener};
 use signorini_io::checkpoint::{Archive, Checkpoints};
@@ -226,6 +227,7 @@ impl Opened {
             listener,
             contacts: BTreeMap::new(),
             drifts: Vec::new(),
+            leaks: Leaks::default(),
             closure: self.closure,
             idle: self.idle,
             work_stabilization: 0.0,

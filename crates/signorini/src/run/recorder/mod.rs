@@ -23,6 +23,7 @@ use crate::run::frd;
 use crate::run::frequencies::Frequencies;
 use crate::run::history::History;
 use crate::run::idle::Idle;
+use crate::run::leaks::Leaks;
 use crate::run::limits::{Limits, Stop};
 use crate::run::narration::{Level, Narrator};
 use crate::run::news::{Detail, Effort, Facts, Listener, News};
@@ -122,6 +123,8 @@ pub struct Recorder<'l> {
     pub contacts: BTreeMap<String, ContactSummary>,
     /// How far contacts that keep the geometry of the start slid at most, over the size of their facets, and where.
     pub drifts: Vec<(String, f64, u32)>,
+    /// Where fluids have come through contacts.
+    pub leaks: Leaks,
     /// Which contacts have closed.
     pub closure: Closure,
     /// Which contacts act on nothing that moves somewhere.

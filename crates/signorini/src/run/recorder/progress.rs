@@ -224,6 +224,7 @@ impl Recorder<'_> {
         let drifts =
             drifts.filter_map(|c| c.drift.map(|(ratio, node)| (c.name.clone(), ratio, node)));
         self.drifts = drifts.collect();
+        self.leaks.look(frame);
         self.work_stabilization = frame.work_stabilization;
         self.work_external = frame.work_external;
         self.audit.look(frame);
@@ -338,6 +339,15 @@ fn add(sum: &mut ContactSummary, one: &ContactSummary) {
     sum.area_open += one.area_open;
     sum.area_stick += one.area_stick;
     sum.area_slip += one.area_slip;
+    sum.area_wet = match (sum.area_wet, one.area_wet) {
+        (Some(a), Some(b)) => Some(a + b),
+        (a, b) => a.or(b),
+    };
+    sum.closure_max = sum
+        .closure_max
+        .into_iter()
+        .chain(one.closure_max)
+        .reduce(f64::max);
     sum.imbalance_force = sum.imbalance_force.max(one.imbalance_force);
     sum.imbalance_moment = sum.imbalance_moment.max(one.imbalance_moment);
 }
@@ -360,6 +370,8 @@ fn summary(contact: &ContactFrame, before: Option<&ContactSummary>) -> ContactSu
         area_open: contact.area_open,
         area_stick: contact.area_stick,
         area_slip: contact.area_slip,
+        area_wet: contact.fluid.map(|fluid| fluid.area),
+        closure_max: contact.closure_max.iter().copied().reduce(f64::max),
         imbalance_force: before.map_or(forces, |b| forces.max(b.imbalance_force)),
         imbalance_moment: before.map_or(moments, |b| moments.max(b.imbalance_moment)),
     }

@@ -283,6 +283,7 @@ fn steps_change_contacts_that_act_at_some_time() {
         contact,
         active,
         friction,
+        fluid: None,
     };
     let shown = |changes: &[ContactChange]| format!("{changes:?}");
     assert_eq!(
