@@ -199,6 +199,8 @@ mod tests {
             }
         }
 
+        fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
         fn uncertain(&mut self, _: &[Dof], _: f64) {}
     }
 

@@ -61,6 +61,8 @@ impl Sink for Elements {
         self.ends.push(self.dofs.len());
     }
 
+    fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -47,6 +47,8 @@ impl Sink for Sum {
         }
     }
 
+    fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -123,15 +123,6 @@ pub struct Radiation {
     pub sink: f64,
 }
 
-/// The constants of radiation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RadiationConstants {
-    /// σ, of Stefan and Boltzmann.
-    pub stefan_boltzmann: f64,
-    /// `T_0`, absolute zero.
-    pub absolute_zero: f64,
-}
-
 fn on_faces(quantity: &'static str) -> LoadProperties {
     LoadProperties::of_heat(Domain::Faces, quantity)
 }

@@ -1,6 +1,6 @@
 //! What acts, and where.
 
-use super::{RadiationConstants, Region, Schedule};
+use super::{Region, Schedule};
 use crate::system::{Layout, Term};
 use signorini_geometry::mesh::{CellId, Face, NodeId};
 use signorini_geometry::surface::RigidId;
@@ -169,6 +169,15 @@ pub struct Site<'a> {
     pub radiation: Option<RadiationConstants>,
     /// Positions of all nodes at the start.
     pub reference: &'a Arc<[Vec3]>,
+}
+
+/// The constants of radiation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RadiationConstants {
+    /// σ, of Stefan and Boltzmann.
+    pub stefan_boltzmann: f64,
+    /// `T_0`, absolute zero.
+    pub absolute_zero: f64,
 }
 
 /// What a load does.

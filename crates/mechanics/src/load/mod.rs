@@ -84,8 +84,10 @@ pub use course::{Course, Schedule};
 pub use following_pressure::FollowingPressure;
 pub use force::{Force, Wrench};
 pub use gravity::Gravity;
-pub use heat::{Film, HeatFlux, HeatPower, HeatSource, Radiation, RadiationConstants};
-pub use kind::{Acting, Domain, Effect, Load, LoadError, LoadProperties, Place, Site};
+pub use heat::{Film, HeatFlux, HeatPower, HeatSource, Radiation};
+pub use kind::{
+    Acting, Domain, Effect, Load, LoadError, LoadProperties, Place, RadiationConstants, Site,
+};
 pub use moment::Moment;
 pub use nodal_forces::NodalForces;
 pub use per_node::PerNode;

@@ -236,13 +236,7 @@ impl Context<'_> {
                     heat,
                     ..
                 } => {
-                    let site = heat::Site {
-                        name,
-                        cells,
-                        space,
-                        profile: profile.clone(),
-                        integration,
-                    };
+                    let site = heat::Site::new(name, cells, space, profile.clone(), integration);
                     terms.extend(self.heat(site, heat.as_deref())?);
                     if !deforms {
                         continue;
@@ -269,15 +263,7 @@ impl Context<'_> {
                     for (step, material) in later {
                         solid.change(step, material)?;
                     }
-                    for &kinematics in sizes {
-                        let chosen = solid.locking(kinematics)?.into_iter();
-                        summaries.extend(chosen.map(|(element, locking)| LockingSummary {
-                            body: name.to_string(),
-                            element,
-                            kinematics,
-                            locking,
-                        }));
-                    }
+                    summaries.extend(remedies(name, &solid, sizes)?);
                     for &kinematics in conserving {
                         solid.conserves_energy(kinematics)?;
                     }
@@ -314,6 +300,25 @@ impl Context<'_> {
         }
         Ok((terms, summaries))
     }
+}
+
+/// What was chosen against locking in a body, for these sizes of strains.
+fn remedies(
+    name: &str,
+    solid: &Solid,
+    sizes: &[Kinematics],
+) -> Result<Vec<LockingSummary>, ModelError> {
+    let mut summaries = Vec::new();
+    for &kinematics in sizes {
+        let chosen = solid.locking(kinematics)?.into_iter();
+        summaries.extend(chosen.map(|(element, locking)| LockingSummary {
+            body: name.to_string(),
+            element,
+            kinematics,
+            locking,
+        }));
+    }
+    Ok(summaries)
 }
 
 /// How large strains are in any of the steps.

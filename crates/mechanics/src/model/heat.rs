@@ -3,7 +3,7 @@
 use super::{Context, HeatPart, ModelError, StepPart};
 use crate::solid::{HeatInBody, HeatParts, Integration};
 use crate::solve::{Motion, Prescription};
-use crate::system::{Dof, Heat, Idealisation, Layout, NO_DOF, Term};
+use crate::system::{Dof, Heat, Idealisation, Layout, NO_DOF, NodalField, Term};
 use signorini_geometry::mesh::{CellId, NodeId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -17,8 +17,35 @@ pub(super) fn with_temperatures(layout: Layout, steps: &[StepPart]) -> Layout {
         .unwrap_or(layout)
 }
 
+/// Temperatures that are given: those of unknowns at the start, and of all nodes at the ends of steps.
+pub(super) fn given(
+    layout: &Layout,
+    start: Vec<f64>,
+    steps: &[StepPart],
+) -> (Arc<[(Dof, f64)]>, Option<Arc<NodalField>>) {
+    (at_start(layout, &start), temperatures(start, steps))
+}
+
+/// Temperatures of the nodes at the start and at the end of every step.
+fn temperatures(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> {
+    if start.is_empty() {
+        return None;
+    }
+    let mut ends = vec![start];
+    for step in steps {
+        let mut end = ends.last().cloned().unwrap_or_default();
+        for &(node, value) in &step.temperatures {
+            if let Some(to) = end.get_mut(node as usize) {
+                *to = value;
+            }
+        }
+        ends.push(end);
+    }
+    Some(Arc::new(NodalField { ends }))
+}
+
 /// Temperatures at the start, as unknowns.
-pub(super) fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]> {
+fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]> {
     let of_nodes = (0..).zip(temperature);
     let of_nodes = of_nodes.map(|(node, value)| (layout.temperature(node), *value));
     of_nodes.filter(|(dof, _)| *dof != NO_DOF).collect()
@@ -71,6 +98,25 @@ pub(super) struct Site<'a> {
     pub space: Idealisation,
     pub profile: Option<Arc<[f64]>>,
     pub integration: Integration,
+}
+
+impl<'a> Site<'a> {
+    /// A body with what its thickness is multiplied by at nodes.
+    pub const fn new(
+        name: &'a str,
+        cells: &'a [CellId],
+        space: Idealisation,
+        profile: Option<Arc<[f64]>>,
+        integration: Integration,
+    ) -> Self {
+        Self {
+            name,
+            cells,
+            space,
+            profile,
+            integration,
+        }
+    }
 }
 
 impl Context<'_> {

@@ -61,7 +61,7 @@ pub use summary::{
 use crate::contact::Interface;
 use crate::material::Material;
 use crate::solve::Step;
-use crate::system::{Layout, NodalField, System, Term};
+use crate::system::{Layout, System, Term};
 use bodies::{between, nodes_by_body, owners};
 use constraints::Followers;
 use contact::{Sides, Source};
@@ -166,11 +166,10 @@ impl Model {
         let mut layout = heat::with_temperatures(followers.layout(), &parts.steps);
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
-        let tolerances = [parts.gap_tol, parts.traction_tol];
-        let joint = contact::Steps::new(contacts, &parts.steps, &activity, tolerances);
+        let tol = [parts.gap_tol, parts.traction_tol];
+        let joint = contact::Steps::new(contacts, &parts.steps, &activity, tol);
         let rubs: Vec<bool> = (0..contacts.len()).map(|k| joint.rubs(k)).collect();
         let motions = steps::prescribed(mesh.nnode(), &parts.steps);
-        let prescribed = steps::in_whole(&motions, space.ndim());
         let source = Source {
             mesh,
             bodies: &connected(mesh, contacts),
@@ -178,7 +177,7 @@ impl Model {
             space,
             spaces: &spaces,
             elimination: &elimination,
-            prescribed: &prescribed,
+            prescribed: &steps::in_whole(&motions, space.ndim()),
             motions: &motions,
             rubs: &rubs,
         };
@@ -186,12 +185,10 @@ impl Model {
         let source = source.with_reference(&reference);
         let sides = all_sides(&source, &joint, &mut layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
-        let (modulus, shear_modulus) = moduli(bodies);
-        something_deforms(&modulus, &parts)?;
+        let (modulus, shear_modulus) = moduli(bodies, &parts)?;
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
         let singles = Singles::new(&body_of_node, &followers, &parts.masses);
-        let at_start = heat::at_start(&layout, &parts.temperature);
-        let temperature = temperatures(parts.temperature, &parts.steps);
+        let (at_start, temperature) = heat::given(&layout, parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
             singles: &singles,
@@ -262,14 +259,19 @@ fn something_deforms(modulus: &[Option<f64>], parts: &Parts<'_>) -> Result<(), M
     }
 }
 
-/// Young's and shear moduli of bodies, as far as they have any.
-fn moduli(bodies: &[BodyPart]) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
+/// Young's and shear moduli of bodies, as far as they have any; some body must where nothing else gives equations.
+fn moduli(bodies: &[BodyPart], parts: &Parts<'_>) -> Result<Moduli, ModelError> {
     let materials = bodies.iter().map(|b| b.kind.material());
     let of = |material: Option<&dyn Material>| {
         material.map_or((None, None), |m| (Some(m.modulus()), m.shear_modulus()))
     };
-    materials.map(of).unzip()
+    let (modulus, shear_modulus): Moduli = materials.map(of).unzip();
+    something_deforms(&modulus, parts)?;
+    Ok((modulus, shear_modulus))
 }
+
+/// Young's and shear moduli of bodies.
+type Moduli = (Vec<Option<f64>>, Vec<Option<f64>>);
 
 impl Followers<'_> {
     /// Motions of bodies that nothing but contact stops: in the first step, and whenever elements are removed or added.
@@ -429,22 +431,4 @@ impl Context<'_> {
         }
         Ok(summaries)
     }
-}
-
-/// Temperatures of the nodes at the start and at the end of every step.
-fn temperatures(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> {
-    if start.is_empty() {
-        return None;
-    }
-    let mut ends = vec![start];
-    for step in steps {
-        let mut end = ends.last().cloned().unwrap_or_default();
-        for &(node, value) in &step.temperatures {
-            if let Some(to) = end.get_mut(node as usize) {
-                *to = value;
-            }
-        }
-        ends.push(end);
-    }
-    Some(Arc::new(NodalField { ends }))
 }

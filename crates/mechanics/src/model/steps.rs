@@ -123,12 +123,7 @@ impl Context<'_> {
         parts: Vec<StepPart>,
         contacts: &[ContactPart],
     ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
-        let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
-        for body in 0..self.layout.nrigid() as RigidId {
-            for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
-                prescribed.insert(dof, Motion::Hold);
-            }
-        }
+        let mut prescribed = self.held_carriers();
         // prescribed by the user, as opposed to held by default
         let mut named: BTreeSet<Dof> = BTreeSet::new();
         let mut loads: Vec<Vec<LoadPart>> = Vec::new();
@@ -220,6 +215,14 @@ impl Context<'_> {
             });
         }
         Ok((steps, loads))
+    }
+
+    /// What carriers are held along unless steps say otherwise.
+    fn held_carriers(&self) -> BTreeMap<Dof, Motion> {
+        let carriers = 0..self.layout.nrigid() as RigidId;
+        let all = carriers.flat_map(|carrier| components(&self.layout, carrier));
+        let held = all.filter(|dof| !self.ties.free.contains(dof));
+        held.map(|dof| (dof, Motion::Hold)).collect()
     }
 
     /// The unknowns along which mass moves in a step unless something holds it.

@@ -6,7 +6,8 @@
 //!
 //! with the same projections and condensations as (E2).
 
-use super::scratch::Scratch;
+use super::cells::Cells;
+use super::scratch::{Scratch, Wanted};
 use super::term::Solid;
 use crate::system::{Dof, PatternSink, Sink};
 use signorini_geometry::mesh::NodeId;
@@ -27,6 +28,20 @@ impl Solid {
         let dofs = nodes.iter().map(|&node| self.layout.temperature(node));
         of.heat.extend(dofs);
         out.couple(&of.dofs, &of.heat, &of.thermal);
+    }
+
+    /// Makes room for what the forces of a cell are against temperatures, where that is wanted; says whether it is.
+    pub(super) fn make_room_for_heat(
+        &self,
+        block: &Cells,
+        wanted: Wanted,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let swells = wanted == Wanted::Stiffness && self.swells();
+        let nheat = if swells { block.nnode } else { 0 };
+        let size = block.nnode * self.layout.ndim() * nheat;
+        scratch.thermal.resize(size, 0.0);
+        swells
     }
 
     /// Adds what displacements and temperatures of the nodes of a cell couple.

@@ -285,9 +285,7 @@ impl Solid {
         let is_symmetric = self.is_symmetric(at);
         let batch = block.treatment(self.kinematics).batch;
         let flow = self.flow(at, wanted);
-        let swells = wanted == Wanted::Stiffness && self.swells();
-        let nheat = if swells { block.nnode } else { 0 };
-        (scratch.thermal).resize(block.nnode * self.layout.ndim() * nheat, 0.0);
+        let swells = self.make_room_for_heat(block, wanted, scratch);
         let is_plain = is_symmetric && flow.is_none() && !swells;
         let batch = batch.filter(|_| wanted != Wanted::Samples && is_plain);
         let width = if batch.is_some() { width() } else { 1 };

@@ -145,6 +145,10 @@ impl Sink for Taken {
         }
     }
 
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        crate::system::couple_as_square(self, rows, columns, stiffness);
+    }
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

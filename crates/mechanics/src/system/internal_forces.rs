@@ -57,5 +57,7 @@ impl Sink for Forces {
         self.add(dofs, force, &[]);
     }
 
+    fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }

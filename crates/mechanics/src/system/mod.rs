@@ -99,7 +99,7 @@ pub use rigid_motion::{RigidMass, moved};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use signorini_linear::Symmetry;
-pub use sink::{Lifetime, Order, Part, PatternSink, Role, Sink, TermError, Work};
+pub use sink::{Lifetime, Order, Part, PatternSink, Role, Sink, TermError, Work, couple_as_square};
 pub use state::State;
 pub use term::{Properties, Term};
 pub(crate) use touching::{Act, Touching, choose_again, touching};

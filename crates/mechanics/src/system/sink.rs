@@ -101,9 +101,7 @@ pub trait PatternSink {
     /// These dofs see each other, in the interface.
     fn interface(&mut self, dofs: &[Dof]);
     /// Each of the dofs `ones` sees each of `others`, and the other way round, in the interface: what couples two fields.
-    fn coupling(&mut self, ones: &[Dof], others: &[Dof]) {
-        self.interface(&[ones, others].concat());
-    }
+    fn coupling(&mut self, ones: &[Dof], others: &[Dof]);
 }
 
 /// Takes local forces and stiffnesses.
@@ -121,12 +119,8 @@ pub trait Sink {
     }
 
     /// Adds a stiffness of forces at `rows` against `columns` to the interface, row-major: what couples two fields.
-    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
-        let mut full = Vec::new();
-        square(rows, columns, stiffness, &mut full);
-        let dofs = [rows, columns].concat();
-        self.add(&dofs, &vec![0.0; dofs.len()], &full);
-    }
+    /// Sinks that keep forces alone leave it out, and others may take it by [`couple_as_square`].
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]);
 
     /// Says that forces at these dofs are uncertain by `error` through rounding: a stiff law amplifies the rounding of
     /// positions far beyond that of the forces themselves.
@@ -148,6 +142,14 @@ pub(super) fn fill_up(blocks: &[f64], n: usize, ndim: usize, full: &mut Vec<f64>
             full[column * n + row] = *value;
         }
     }
+}
+
+/// Adds what [`Sink::couple`] takes as a stiffness of all dofs against all, by [`Sink::add`].
+pub fn couple_as_square(sink: &mut dyn Sink, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+    let mut full = Vec::new();
+    square(rows, columns, stiffness, &mut full);
+    let dofs = [rows, columns].concat();
+    sink.add(&dofs, &vec![0.0; dofs.len()], &full);
 }
 
 /// A stiffness of some rows against some columns as one of all against all.

@@ -424,6 +424,35 @@ class ContactEnforcement(Table):
     )
 
 
+class ContactFluid(Table):
+    """A fluid that comes between the sides from their rim, and presses them apart where it is.
+
+    TOML: `contact.fluid`.
+    """
+
+    _toml = "contact.fluid"
+    critical: Key[float | Literal["fluid"], float | Literal["fluid"]] = Key(
+        "The contact pressure up to which it enters: a number, 0 where contact is lost; \"fluid\": its own pressure",
+        "number ≥ 0.0 or `\"fluid\"`",
+        default=0.0,
+    )
+    from_: Key[str | None, str] = Key("Nodes of either side where it is from the start", "text", key="from")
+    pressure: Key[float | None, float] = Key(
+        "Its pressure at the end of the first step, reached linearly; it stays, unless a [[step.contact]] has another `fluid`",
+        "number ≥ 0.0",
+    )
+    ramp: Key[float, float] = Key(
+        "The part of the step in which its pressure grows on points that it has just reached",
+        "number ≥ 0.0",
+        default=0.001,
+    )
+    recede: Key[bool, bool] = Key(
+        "Whether points dry after an increment at whose end they are pressed by 1.05 times `critical`, or more",
+        "`true` or `false`",
+        default=True,
+    )
+
+
 class ContactFriction(Table):
     """What limits friction, and what sticking yields.
 
@@ -454,6 +483,47 @@ class ContactFrictionHeat(Table):
         "The part of that which the secondary side takes",
         "number ≥ 0.0, ≤ 1.0",
         default=0.5,
+    )
+
+
+class ContactGasketUnloading(Table):
+    """How it opens from a closure.
+
+    TOML: `contact.gasket.unloading`.
+    """
+
+    _toml = "contact.gasket.unloading"
+    curve: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [closure, pressure], from the closure that stays at pressure 0 to `from`, on `loading`",
+        "list of list of number; number ≥ 0.0, 2 of them",
+    )
+    from_: Key[float | None, float] = Key("The largest closure so far", "number > 0.0", key="from")
+
+
+class ContactGasket(Table):
+    """A gasket between the sides, in the place of `enforcement`: pressure against closure, the way by which a gap has closed.
+
+    TOML: `contact.gasket`.
+    """
+
+    _toml = "contact.gasket"
+    loading: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
+        "Rows [closure, pressure] of closing further than ever; it begins at pressure 0 and goes on with its last slope",
+        "list of list of number; number ≥ 0.0, 2 of them",
+    )
+    onset: Key[float | None, float] = Key(
+        "The closure up to which it opens as it closes; absent: where the slope of `loading` has fallen by a tenth of its steepest",
+        "number > 0.0",
+    )
+    tension: Key[float, float] = Key(
+        "How stiff it is in being opened further than to pressure 0, over its first stiffness",
+        "number ≥ 0.0",
+        default=0.0,
+    )
+    unloading: Items[ContactGasketUnloading] = Items(
+        ContactGasketUnloading,
+        "Curves of opening, by the closures that they begin at; absent: it opens as it closes",
+        "list of a table",
     )
 
 
@@ -608,6 +678,11 @@ class Contact(Table):
         "`\"auto\"`, `\"faces\"`, `\"edges\"`",
         default="auto",
     )
+    fluid: One[ContactFluid] = One(
+        ContactFluid,
+        "A fluid that comes between the sides from their rim, and presses them apart where it is",
+        "a table",
+    )
     friction: Mixed[ContactFriction] = Mixed(
         ContactFriction,
         "Coefficient of friction, or a table of what limits it",
@@ -624,6 +699,11 @@ class Contact(Table):
         "What sticking points remember: the place where they stick; or, as OOFEM has it, the traction of the last increment, without friction in the one in which they close",
         "`\"place\"`, `\"traction\"`",
         default="place",
+    )
+    gasket: One[ContactGasket] = One(
+        ContactGasket,
+        "A gasket between the sides, in the place of `enforcement`: pressure against closure, the way by which a gap has closed",
+        "a table",
     )
     method: Key[Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"], Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"]] = Key(
         "How the sides are discretized",
@@ -1638,6 +1718,10 @@ class ContactChange(Table):
 
     _toml = "step.contact"
     active: Key[bool | None, bool] = Key("Whether it acts", "`true` or `false`")
+    fluid: Key[float | None, float] = Key(
+        "The pressure of its fluid at the end of the step, reached linearly",
+        "number ≥ 0.0",
+    )
     friction: Mixed[ContactFriction] = Mixed(
         ContactFriction,
         "Coefficient of friction, or a table of what limits it",
@@ -2470,9 +2554,11 @@ if TYPE_CHECKING:
         "enforcement": Literal["auto"] | ContactEnforcement | Mapping[str, Any] | ContactLaw,
         "exclude": Sequence[Any] | NDArray[Any],
         "features": Literal["auto", "faces", "edges"],
+        "fluid": ContactFluid | Mapping[str, Any],
         "friction": float | ContactFriction | Mapping[str, Any] | FrictionLimit,
         "friction_heat": bool | ContactFrictionHeat | Mapping[str, Any],
         "friction_history": Literal["place", "traction"],
+        "gasket": ContactGasket | Mapping[str, Any],
         "method": Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"],
         "normals": Literal["primary", "secondary", "nodal"] | Sequence[float] | NDArray[Any],
         "pair": Sequence[ContactPair | Mapping[str, Any]],

@@ -213,6 +213,10 @@ fn term_of(multiplier: Dof, model: &Model) -> Option<&dyn Term> {
         fn interface(&mut self, dofs: &[Dof]) {
             self.1 |= dofs.contains(&self.0);
         }
+        fn coupling(&mut self, ones: &[Dof], others: &[Dof]) {
+            self.interface(ones);
+            self.interface(others);
+        }
     }
     let has = |term: &&dyn Term| {
         let mut search = Search(multiplier, false);

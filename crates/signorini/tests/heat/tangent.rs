@@ -25,6 +25,10 @@ impl Sink for Dense {
         }
     }
 
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        signorini_mechanics::system::couple_as_square(self, rows, columns, stiffness);
+    }
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -134,13 +134,7 @@ impl Builder<'_> {
                 .map(|(fields, place)| self.constraint(fields, place))
                 .collect(),
             thicknesses: thicknesses_at(&root),
-            constants: root.has("constants").then(|| {
-                let constants = root.table("constants");
-                Constants {
-                    stefan_boltzmann: constants.number("stefan_boltzmann"),
-                    absolute_zero: constants.number("absolute_zero"),
-                }
-            }),
+            constants: constants(root),
             initial_temperature: root.table("initial").number_if("temperature"),
             initial_temperatures: temperatures_at(root.table("initial")),
             initial_velocities: self.velocities_at(root.table("initial")),
@@ -180,4 +174,13 @@ impl Builder<'_> {
         }
         allowed.into_iter().map(|one| one.value).collect()
     }
+}
+
+/// Constants of nature.
+fn constants(root: Fields<'_>) -> Option<Constants> {
+    let of = root.table("constants");
+    root.has("constants").then(|| Constants {
+        stefan_boltzmann: of.number("stefan_boltzmann"),
+        absolute_zero: of.number("absolute_zero"),
+    })
 }

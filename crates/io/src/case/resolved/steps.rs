@@ -36,14 +36,7 @@ pub(super) fn step(step: &Step) -> Entries {
             "fix",
             tables(&step.fixes, |one| held(&one.on, one.u, one.rot)),
         ),
-        (
-            "free",
-            tables(&step.frees, |one| {
-                let mut entries = held(&one.on, one.u, one.rot);
-                entries.extend(one.temperature.then(|| ("temperature", true.into())));
-                entries
-            }),
-        ),
+        ("free", tables(&step.frees, freed)),
     ];
     if let Some(one) = &step.frequency {
         let [lower, upper] = [("lower", one.lower), ("upper", one.upper)];
@@ -72,13 +65,7 @@ pub(super) fn step(step: &Step) -> Entries {
         ("deactivate", tables(&step.deactivations, deactivation)),
         ("temperature", tables(&step.temperatures, temperature)),
     ];
-    entries.extend(step.thermal.map(|thermal| {
-        let word = match thermal.transient {
-            true => "transient",
-            false => "steady",
-        };
-        ("thermal", word.into())
-    }));
+    entries.extend(step.thermal.map(thermal));
     entries.extend(step.dynamics.as_ref().map(|dynamics| {
         let (method, number) = match dynamics.method {
             DynamicMethod::GeneralizedAlpha(rho_inf) => {
@@ -121,6 +108,20 @@ pub(super) fn step(step: &Step) -> Entries {
         ("print", written)
     }));
     entries
+}
+
+fn freed(one: &Free) -> Entries {
+    let mut entries = held(&one.on, one.u, one.rot);
+    entries.extend(one.temperature.then(|| ("temperature", true.into())));
+    entries
+}
+
+fn thermal(thermal: Thermal) -> (&'static str, Value) {
+    let word = match thermal.transient {
+        true => "transient",
+        false => "steady",
+    };
+    ("thermal", word.into())
 }
 
 /// The method of an explicit step, which has nothing else to say.

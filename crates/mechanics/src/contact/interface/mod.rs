@@ -3,6 +3,7 @@
 mod asked;
 mod audited;
 mod carried;
+mod conducting;
 mod coupled;
 mod damped;
 mod drift;
@@ -26,6 +27,7 @@ mod past;
 mod report;
 mod restless;
 mod reversals;
+mod row_heat;
 mod rows;
 mod term;
 mod thermal;
@@ -39,7 +41,7 @@ pub use parts::{
 };
 pub use wet::{Critical, Fluid};
 
-pub use thermal::{ContactHeat, FrictionHeat};
+pub use conducting::{ContactHeat, FrictionHeat};
 
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;
@@ -57,11 +59,11 @@ use lents::Lents;
 use memory::{DynamicGaps, Ends, History};
 use near::Near;
 use reversals::Reversals;
+use row_heat::ThermalScratch;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
-use thermal::ThermalScratch;
 use wet::Wetting;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.

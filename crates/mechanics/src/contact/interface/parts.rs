@@ -1,6 +1,6 @@
 //! What an interface is made from.
 
-use super::thermal::ContactHeat;
+use super::conducting::ContactHeat;
 use super::wet::Fluid;
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};

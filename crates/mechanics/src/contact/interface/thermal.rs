@@ -17,65 +17,13 @@
 //! Heat that leaves one side enters the other: Σ β = 0 for all columns. Source: Wriggers, Computational Contact Mechanics, 2006,
 //! section 9.7.
 
+use super::conducting::{ContactHeat, FrictionHeat};
+use super::row_heat::{OfParticipant, ThermalScratch};
 use super::rows::row_order;
 use super::{Answer, Interface, Laws, Order, Participant, Rows, Scratch, Sink, State, TermError};
-use crate::contact::kernel::Slopes;
 use crate::contact::law::{Between, Conductance, Conducted};
 use crate::contact::row::Row;
 use crate::system::{Dof, NO_DOF, PatternSink};
-
-/// How an interface conducts, and what becomes of the heat of friction.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ContactHeat {
-    /// The ways that heat takes.
-    pub paths: Vec<Conductance>,
-    /// The heat of friction; none: it is lost.
-    pub friction: Option<FrictionHeat>,
-    /// The temperature of a primary side that has no nodes; none: it neither gives nor takes heat.
-    pub primary: Option<f64>,
-    /// The part of the conductance that counts: a half in each of two passes.
-    pub share: f64,
-}
-
-/// What becomes of the heat of friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionHeat {
-    /// η: the part of its work that becomes heat.
-    pub fraction: f64,
-    /// f: the part of that which the secondary side takes.
-    pub to_secondary: f64,
-}
-
-/// A participant of a row.
-#[derive(Clone, Copy, Debug)]
-struct OfParticipant {
-    /// θ.
-    temperature: f64,
-    /// β.
-    beta: f64,
-    /// s.
-    side: f64,
-}
-
-/// What is known of a row and its temperatures.
-#[derive(Default)]
-pub(super) struct ThermalScratch {
-    participants: Vec<OfParticipant>,
-    /// c.
-    coverage: f64,
-    /// dc over the columns of displacements.
-    dcoverage: Vec<f64>,
-    dofs: Vec<Dof>,
-    /// ∂β/∂d: a line for each participant.
-    dbeta: Vec<f64>,
-    /// dq and d(𝒟) over the columns of displacements and multipliers.
-    dflow: Vec<f64>,
-    dpower: Vec<f64>,
-    force: Vec<f64>,
-    stiffness: Vec<f64>,
-    coupling: Vec<f64>,
-    slopes: Slopes,
-}
 
 impl Interface {
     /// How it conducts in the present step; none where temperatures are given.
@@ -267,98 +215,5 @@ impl Interface {
         });
         s.dbeta.extend(s.dcoverage.iter().map(|d| -d));
         true
-    }
-}
-
-impl ThermalScratch {
-    /// [θ] and θ_m.
-    fn jump_and_mean(&self) -> [f64; 2] {
-        let all = self.participants.iter();
-        let sums = all.fold([0.0; 2], |[jump, mean], of| {
-            let part = of.beta * of.temperature;
-            [jump + part, mean + 0.5 * of.side * part]
-        });
-        sums.map(|sum| sum / self.coverage)
-    }
-
-    /// (E1).
-    fn add_residual(
-        &mut self,
-        conducted: &Conducted,
-        jump: f64,
-        (weight, power): (f64, f64),
-        friction: FrictionHeat,
-    ) {
-        let flow = weight * conducted.h * jump;
-        let heat = weight * friction.fraction * power;
-        self.force.clear();
-        let of = |of: &OfParticipant| of.beta * flow - friction.taken(of.side) * of.beta * heat;
-        self.force.extend(self.participants.iter().map(of));
-    }
-
-    /// (E2).
-    fn add_stiffness(&mut self, conducted: &Conducted, jump: f64, weight: f64) {
-        let through = conducted.h + jump * conducted.djump;
-        let mean = 0.5 * jump * conducted.dmean;
-        for row in &self.participants {
-            let of = |column: &OfParticipant| {
-                let change = (through + mean * column.side) * column.beta / self.coverage;
-                weight * row.beta * change
-            };
-            self.stiffness.extend(self.participants.iter().map(of));
-        }
-    }
-
-    /// (E3).
-    fn couple(
-        &mut self,
-        row: &Row,
-        (conducted, [jump, mean]): (&Conducted, [f64; 2]),
-        (weight, power): (f64, f64),
-        (friction, duration): (FrictionHeat, f64),
-    ) {
-        let (n, width) = (row.weights.len(), self.slopes.pressure.len());
-        let through = conducted.h + jump * conducted.djump;
-        let of_mean = jump * conducted.dmean;
-        self.dflow.clear();
-        self.dpower.clear();
-        for (j, dpressure) in self.slopes.pressure.iter().enumerate() {
-            let mut flow = jump * conducted.dpressure * dpressure;
-            if let (Some(gradient), Some(covered)) = (row.gradient.get(j), self.dcoverage.get(j)) {
-                let lines = self.dbeta.chunks_exact(n).zip(&self.participants);
-                let changes = lines.fold([0.0; 2], |[jump, mean], (line, of)| {
-                    let part = line.get(j).copied().unwrap_or_default() * of.temperature;
-                    [jump + part, mean + 0.5 * of.side * part]
-                });
-                let [djump, dmean] = [changes[0] - jump * covered, changes[1] - mean * covered];
-                flow += jump * conducted.dgap * gradient;
-                flow += (through * djump + of_mean * dmean) / self.coverage;
-            }
-            self.dflow.push(flow);
-            let slope = self.slopes.dissipation.get(j).copied().unwrap_or_default();
-            let slope = if power == 0.0 { 0.0 } else { slope / duration };
-            self.dpower.push(slope);
-        }
-        let flow = conducted.h * jump;
-        for (k, of) in self.participants.iter().enumerate() {
-            let share = friction.fraction * friction.taken(of.side);
-            let line = self.dbeta.get(k * n..(k + 1) * n).unwrap_or_default();
-            let turned = line.iter().copied().chain(std::iter::repeat(0.0));
-            let all = self.dflow.iter().zip(&self.dpower).zip(turned).take(width);
-            self.coupling.extend(all.map(|((dflow, dpower), turned)| {
-                let conducted = of.beta * dflow + flow * turned;
-                weight * (conducted - share * (of.beta * dpower + power * turned))
-            }));
-        }
-    }
-}
-
-impl FrictionHeat {
-    /// a/β: what a participant of a side takes of the heat.
-    fn taken(&self, side: f64) -> f64 {
-        match side > 0.0 {
-            true => self.to_secondary,
-            false => self.to_secondary - 1.0,
-        }
     }
 }

@@ -23,6 +23,8 @@ impl Sink for Forces {
         self.0.extend(own.map(|(dof, force)| (*dof, *force)));
     }
 
+    fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -199,6 +199,8 @@ impl Sink for Response {
         }
     }
 
+    fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -661,6 +661,10 @@ impl Sink for Whole {
         }
     }
 
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        crate::system::couple_as_square(self, rows, columns, stiffness);
+    }
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
@@ -688,6 +692,10 @@ impl Coupled {
 
 impl PatternSink for Coupled {
     fn bulk(&mut self, _: &[NodeId]) {}
+
+    fn coupling(&mut self, ones: &[Dof], others: &[Dof]) {
+        self.interface(&[ones, others].concat());
+    }
 
     fn interface(&mut self, dofs: &[Dof]) {
         for &p in dofs.iter().filter(|d| **d != NO_DOF) {

@@ -50,6 +50,8 @@ impl Sink for Forces {
         }
     }
 
+    fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -185,6 +185,10 @@ impl Sink for Dense<'_> {
         }
     }
 
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        crate::system::couple_as_square(self, rows, columns, stiffness);
+    }
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -21,7 +21,7 @@ use super::{
 use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{Multiplier, Scale};
-use crate::contact::{ContactHeat, ContactPhase, InterfaceParts, Measure};
+use crate::contact::{ContactPhase, InterfaceParts, Measure};
 use crate::system::Activity;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};
@@ -212,10 +212,7 @@ impl Context<'_> {
             damping: part.damping,
             is_rigid: !softest.is_finite(),
             restitution: part.restitution,
-            heat: part.heat.clone().map(|heat| ContactHeat {
-                share: if part.two_pass { 0.5 } else { 1.0 },
-                ..heat
-            }),
+            heat: (part.heat.clone()).map(|of| of.in_passes(1 + u32::from(part.two_pass))),
             discretization: sides.discretization,
             pair: sides.pair,
             gasket: part.enforcement.gasket(),

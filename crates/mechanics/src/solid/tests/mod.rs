@@ -202,6 +202,10 @@ impl Sink for Dense {
         }
     }
 
+    fn couple(&mut self, rows: &[Dof], columns: &[Dof], stiffness: &[f64]) {
+        crate::system::couple_as_square(self, rows, columns, stiffness);
+    }
+
     fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 

@@ -75,6 +75,8 @@ fn measure_hexahedra_per_second() {
 
             fn add_symmetric(&mut self, _: &[Dof], _: &[f64], _: &[f64], _: usize) {}
 
+            fn couple(&mut self, _: &[Dof], _: &[Dof], _: &[f64]) {}
+
             fn uncertain(&mut self, _: &[Dof], _: f64) {}
         }
         let mut work = Work::default();
