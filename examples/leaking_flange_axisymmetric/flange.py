@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Writes flange.inp: the section of a ring, 50 to 100 mm in radius and 20 mm high."""
 
+from pathlib import Path
+
 NR, NZ = 40, 6
 R, Z = (50.0, 100.0), (0.0, 20.0)
 
@@ -13,7 +15,7 @@ def node(i, j):
     return 1 + i + (NR + 1) * j
 
 
-with open("flange.inp", "w", encoding="utf-8") as out:
+with open(Path(__file__).with_name("flange.inp"), "w", encoding="utf-8") as out:
     print("*NODE, NSET=ALL", file=out)
     for j in range(NZ + 1):
         for i in range(NR + 1):

@@ -42,6 +42,7 @@ fn traction_is_the_slope_of_the_potential() {
     ];
     for (law, stick, vector) in laws {
         let laws = Laws {
+            has_past: false,
             law,
             friction: Some(&FRICTION),
             stick,
@@ -86,6 +87,7 @@ fn an_infinite_limit_is_sticking() {
         length: 1.0,
     };
     let laws = Laws {
+        has_past: false,
         law: &Penalty,
         friction: Some(&FRICTION),
         stick: Stick::Stiffness(5.0),
@@ -119,6 +121,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
     let exact = limit / 5.0;
     for stick in [Stick::Stiffness(5.0), Stick::Slip(exact)] {
         let laws = Laws {
+            has_past: false,
             law: &Penalty,
             friction: Some(&FRICTION),
             stick,
@@ -159,6 +162,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
         ..Past::default()
     };
     let laws = Laws {
+        has_past: false,
         law: &Penalty,
         friction: Some(&FRICTION),
         stick: Stick::Stiffness(5.0),

@@ -170,6 +170,7 @@ impl<'a> Case<'a> {
             cap: f64::INFINITY,
         };
         let laws = Laws {
+            has_past: false,
             law: &Penalty,
             friction: Some(&friction),
             stick: Stick::Stiffness(number("eT")),
