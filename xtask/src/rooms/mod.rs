@@ -91,6 +91,7 @@ const ROOMS: [Room; 46] = [
     ),
     room("mechanics::contact::law", &["vocabulary"]),
     room("mechanics::contact::friction", &["vocabulary"]),
+    room("mechanics::contact::cohesion", &[]),
     room(
         "mechanics::contact::row",
         &["mechanics::system", "geometry"],

@@ -77,6 +77,7 @@
 //! *A modular extension of a finite element contact implementation* (the signs of its curvature terms corrected:
 //! see [`discretization::projected`]).
 
+pub mod cohesion;
 pub mod discretization;
 pub mod friction;
 mod interface;
