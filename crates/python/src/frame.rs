@@ -409,6 +409,7 @@ getters! {
         pressure_max: |c| &c.pressure_peak, "The largest pressure of the points around each node (stress), (n,).";
         multiplier: |c| &c.multiplier, "Pressures in the equations, never smoothed (stress), (n,).";
         area: |c| &c.area, "Tributary areas (area), (n,).";
+        damage: |c| &c.damage, "Damage of a joint that may break, from 0 to 1, (n,); of others empty.";
     }
     vector {
         force: |c| c.secondary.force, "What the primary side exerts on the secondary side (force), (3,).";
@@ -425,5 +426,7 @@ getters! {
         area_stick: |c| c.area_stick, "Sticking area.";
         area_slip: |c| c.area_slip, "Slipping area.";
         work_friction: |c| c.work_friction, "Work spent in friction since the start (energy).";
+        work_damage: |c| c.work_damage, "Energy that damage has taken since the start.";
+        work_viscous: |c| c.work_viscous, "Work spent since the start by the viscosity that delays damage.";
     }
 }

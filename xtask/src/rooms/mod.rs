@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 46] = [
+const ROOMS: [Room; 47] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -91,7 +91,7 @@ const ROOMS: [Room; 46] = [
     ),
     room("mechanics::contact::law", &["vocabulary"]),
     room("mechanics::contact::friction", &["vocabulary"]),
-    room("mechanics::contact::cohesion", &[]),
+    room("mechanics::contact::cohesion", &["geometry::tensor"]),
     room(
         "mechanics::contact::row",
         &["mechanics::system", "geometry"],

@@ -401,6 +401,20 @@ codes! {
     ["bodies, or parts of one, came near one another"]
     ["nothing needs to be done", "exclude what is not meant to touch:  exclude = [[\"a\", \"b\"]]"]
 
+    UNRESOLVED_ZONE "S0418" Input "a joint that breaks within few facets"
+    "A cohesive joint transmits tractions in a zone behind the tip of a crack, whose length follows from modulus, toughness, \
+     strength and thickness. Where fewer than seven facets lie in it, forces are wrong by percents, and increments fail."
+    ["a high strength, which makes the zone short", "a coarse mesh along the joint"]
+    ["smaller facets along the joint", "a lower strength of both modes, as the message says: the energy stays the same",
+     "silence with  allow = [\"S0418\"]"]
+
+    VISCOUS_JOINT "S0419" Input "viscosity took much of the energy of a joint"
+    "The `viscosity` of a cohesive joint delays damage, so that increments converge. Its work is an energy that the joint does \
+     not have: more than 1 % of what damage has taken is a wrong load."
+    ["a `viscosity` that is long compared with the time in which a row breaks", "increments that are too few"]
+    ["a smaller `viscosity`, or none", "slower loading: a longer step", "smaller facets along the joint, which need none",
+     "silence with  allow = [\"S0419\"]"]
+
     PRESSED_APART "S0421" Input "contact pressure where the surfaces are apart"
     "Accepted states are audited point by point, whatever the method. Nodes carry contact pressure, and nowhere around them \
      is the gap zero: the pressure is not that of surfaces that touch."

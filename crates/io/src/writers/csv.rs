@@ -51,6 +51,10 @@ pub const CONTACT_COLUMNS: [&str; 16] = [
     "work_friction",
 ];
 
+/// The columns of every contact whose joint may break, after its name and a dot: the energy that damage has taken, and that
+/// of the viscosity which delays it.
+pub const COHESION_COLUMNS: [&str; 2] = ["work_damage", "work_viscous"];
+
 /// The columns of every reference in `history.csv`, after its name and a dot.
 ///
 /// Forces and moments are what contact exerts on the carrier, about the reference; reactions what supports and prescribed
@@ -137,6 +141,7 @@ pub fn history_columns(
     contacts: &[&str],
     references: &[&str],
     has_inertia: bool,
+    breaking: &[&str],
     chosen: &[&str],
 ) -> Vec<String> {
     let of = |names: &[&str], columns: &[&str]| -> Vec<String> {
@@ -151,6 +156,7 @@ pub fn history_columns(
     if has_inertia {
         all.extend(ENERGY_COLUMNS.iter().map(ToString::to_string));
     }
+    all.extend(of(breaking, &COHESION_COLUMNS));
     all.extend(chosen.iter().map(ToString::to_string));
     all
 }
@@ -308,7 +314,13 @@ mod tests {
     #[test]
     fn the_history_has_the_documented_columns() {
         assert_eq!(
-            header(&history_columns(&["c"], &["r"], false, &["pull.force_z"])),
+            header(&history_columns(
+                &["c"],
+                &["r"],
+                false,
+                &[],
+                &["pull.force_z"]
+            )),
             "time,step,increment,iterations,c.force_x,c.force_y,c.force_z,c.moment_x,c.moment_y,c.moment_z,\
              c.pressure_max,c.gap_min,c.slip_max,c.area_open,c.area_stick,c.area_slip,c.center_x,c.center_y,c.center_z,\
              c.work_friction,r.force_x,r.force_y,r.force_z,r.moment_x,r.moment_y,r.moment_z,r.displacement_x,\

@@ -4,6 +4,7 @@ mod heat;
 
 pub(super) use heat::Slopes;
 
+use super::cohesion::{Cohesion, Torn};
 use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
 use super::law::{ContactLaw, Eval, Multiplier, Scale, secant};
 use super::row::{Row, SeenGap, Viscous};
@@ -23,6 +24,10 @@ pub(super) struct Laws<'a> {
     pub bond: bool,
     /// The stiffness of bonds within the tangent plane; `None`: as along the normal.
     pub bond_tangential: Option<f64>,
+    /// How bonds break; `None`: they do not.
+    pub cohesion: Option<&'a Cohesion>,
+    /// The length of the increment, over which damage is delayed.
+    pub duration: f64,
     /// Whether multipliers are tractions.
     pub vectors: bool,
     /// c_t of the row at hand: the shear traction per slip of an unknown multiplier.
@@ -105,6 +110,8 @@ pub(super) struct Past {
     pub limit: Option<f64>,
     /// Its status in the previous iterate.
     pub state: Contact,
+    /// The damage of a bond, at the start of the increment.
+    pub torn: Torn,
 }
 
 impl Past {
@@ -253,7 +260,13 @@ impl<'a> Laws<'a> {
     }
 
     /// The limit of friction of a row at a pressure.
-    fn limit_of(&self, row: &Row, past: &Past, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
+    pub(super) fn limit_of(
+        &self,
+        row: &Row,
+        past: &Past,
+        friction: &dyn FrictionLaw,
+        pressure: f64,
+    ) -> Limit {
         if row.sliding.free {
             return Limit::default();
         }
@@ -280,7 +293,12 @@ impl<'a> Laws<'a> {
     /// Tangential traction per slip, of what sticks.
     pub fn stick_stiffness(&self, traction: &Traction) -> f64 {
         match (self.bond, self.stick_of()) {
-            (true, _) => self.scale.penalty.max(self.bond_tangential()),
+            (true, _) => {
+                let cohesive = self.cohesion.map(|c| c.law.stiffness());
+                let [kn, ks] = cohesive.unwrap_or_default();
+                let bond = self.scale.penalty.max(self.bond_tangential());
+                bond.max(kn).max(ks)
+            }
             (false, Stick::Stiffness(stiffness)) if self.slips() => stiffness,
             (false, Stick::Slip(length)) if self.slips() => traction.limit / length,
             _ => 0.0,
@@ -345,7 +363,10 @@ impl<'a> Laws<'a> {
     /// What acts on a row, without derivatives.
     pub fn traction(&self, row: &Row, lambda: &Lambda, past: Past) -> Traction {
         if self.bond {
-            return self.bonded(row, lambda);
+            return match self.cohesion {
+                Some(cohesion) => self.torn(cohesion, row, &past),
+                None => self.bonded(row, lambda),
+            };
         }
         let scalar = self.scalar(row.normal, lambda);
         let pressure = self.tried(row.seen(), scalar);
@@ -398,7 +419,7 @@ impl<'a> Laws<'a> {
 
     /// The return to the limit. A point on the limit to rounding keeps the status it had `before`: the
     /// traction is the same either way, and a state that is found does not change for ever.
-    fn returned(&self, trial: Vec3, limit: &Limit, before: Contact) -> (Vec3, Contact) {
+    pub(super) fn returned(&self, trial: Vec3, limit: &Limit, before: Contact) -> (Vec3, Contact) {
         if *limit == Limit::default() {
             return (Vec3::ZERO, Contact::Slip);
         }
@@ -447,7 +468,10 @@ impl<'a> Laws<'a> {
     }
 
     /// The energy in a bond, without multipliers.
-    pub fn bond_energy(&self, row: &Row) -> f64 {
+    pub fn bond_energy(&self, row: &Row, past: &Past) -> f64 {
+        if let Some(cohesion) = self.cohesion {
+            return self.torn_energy(cohesion, row, past);
+        }
         let e = row.sliding.slip;
         0.5 * e.dot(self.stretched(row, e))
     }
@@ -479,7 +503,7 @@ impl<'a> Laws<'a> {
         target: &mut Target<'_>,
     ) {
         if self.bond {
-            self.tie(row, measure, lambda, target);
+            self.tie(row, measure, lambda, past, target);
         } else if let Some(friction) = self.friction() {
             self.rub(friction, row, measure, lambda, past, work, target);
         } else {
@@ -623,44 +647,59 @@ impl<'a> Laws<'a> {
         );
     }
 
-    /// Sides that are joined: (E6).
-    fn tie(&self, row: &Row, measure: f64, lambda: &Lambda, target: &mut Target<'_>) {
-        let (n, width) = (row.weights.len(), target.force.len());
-        let sliding = &row.sliding;
+    /// Sides that are joined: (E6), or by bonds that may break.
+    fn tie(&self, row: &Row, measure: f64, lambda: &Lambda, past: Past, target: &mut Target<'_>) {
+        if let Some(cohesion) = self.cohesion {
+            let pull = self.pull(cohesion, row, &past);
+            return join(row, measure, pull.traction, |e| pull.slope * e, target);
+        }
         let stretched = |e: Vec3| match self.law.multiplier() {
             Multiplier::Direct => Vec3::ZERO,
-            _ if sliding.free => Vec3::ZERO,
+            _ if row.sliding.free => Vec3::ZERO,
             _ => self.stretched(row, e),
         };
-        let traction = lambda.vector + stretched(sliding.slip);
-        for (f, b) in target.force.iter_mut().zip(&sliding.operator) {
-            *f += measure * b.dot(traction);
+        let traction = lambda.vector + stretched(row.sliding.slip);
+        join(row, measure, traction, stretched, target);
+    }
+}
+
+/// Adds the traction of a bond, which changes with its stretch by `stretched`, and the equations of its multiplier.
+fn join(
+    row: &Row,
+    measure: f64,
+    traction: Vec3,
+    stretched: impl Fn(Vec3) -> Vec3,
+    target: &mut Target<'_>,
+) {
+    let (n, width) = (row.weights.len(), target.force.len());
+    let sliding = &row.sliding;
+    for (f, b) in target.force.iter_mut().zip(&sliding.operator) {
+        *f += measure * b.dot(traction);
+    }
+    for c in 0..width - n {
+        target.force[n + c] += measure * sliding.slip[c];
+    }
+    if target.stiffness.is_empty() {
+        return;
+    }
+    for (i, line) in target.stiffness.chunks_exact_mut(width).enumerate() {
+        if i >= n {
+            for (k, de) in line.iter_mut().zip(&sliding.dslip) {
+                *k += measure * de[i - n];
+            }
+            continue;
+        }
+        let b = sliding.operator[i];
+        for (k, de) in line.iter_mut().zip(&sliding.dslip) {
+            *k += measure * b.dot(stretched(*de));
         }
         for c in 0..width - n {
-            target.force[n + c] += measure * sliding.slip[c];
+            line[n + c] += measure * b[c];
         }
-        if target.stiffness.is_empty() {
-            return;
-        }
-        for (i, line) in target.stiffness.chunks_exact_mut(width).enumerate() {
-            if i >= n {
-                for (k, de) in line.iter_mut().zip(&sliding.dslip) {
-                    *k += measure * de[i - n];
-                }
-                continue;
-            }
-            let b = sliding.operator[i];
-            for (k, de) in line.iter_mut().zip(&sliding.dslip) {
-                *k += measure * b.dot(stretched(*de));
-            }
-            for c in 0..width - n {
-                line[n + c] += measure * b[c];
-            }
-            for turn in sliding.turns() {
-                let across = measure * turn.across[i].dot(traction);
-                for (k, along) in line.iter_mut().zip(&turn.along) {
-                    *k += across * along;
-                }
+        for turn in sliding.turns() {
+            let across = measure * turn.across[i].dot(traction);
+            for (k, along) in line.iter_mut().zip(&turn.along) {
+                *k += across * along;
             }
         }
     }
@@ -760,7 +799,7 @@ fn add_stiffness(
 }
 
 /// The derivative of `L z/|z|`.
-fn slipping(z: Vec3, size: f64, limit: f64, dz: Vec3, dlimit: f64) -> Vec3 {
+pub(super) fn slipping(z: Vec3, size: f64, limit: f64, dz: Vec3, dlimit: f64) -> Vec3 {
     let q = z / size;
     q * dlimit + (dz - q * q.dot(dz)) * (limit / size)
 }

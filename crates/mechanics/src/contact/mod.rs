@@ -85,6 +85,7 @@ mod kernel;
 pub mod law;
 pub mod mortar;
 mod row;
+mod tear;
 #[cfg(test)]
 pub(crate) mod tests;
 

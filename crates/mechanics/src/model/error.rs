@@ -1,4 +1,5 @@
 use super::Unheld;
+use crate::contact::cohesion::CohesionError;
 use crate::load::LoadError;
 use crate::model::activity_error::ActivityError;
 use crate::model::constraint_error::ConstraintError;
@@ -114,6 +115,14 @@ pub enum ModelError {
     TwoPass {
         /// Name of the contact.
         contact: String,
+    },
+    /// A joint that could not break.
+    #[error("contact \"{contact}\": {source}")]
+    Cohesion {
+        /// Name of the contact.
+        contact: String,
+        /// Why.
+        source: CohesionError,
     },
     /// Choices that do not go together.
     #[error("contact \"{contact}\": {what}")]

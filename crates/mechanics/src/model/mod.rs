@@ -49,13 +49,14 @@ pub use held::Unheld;
 pub use impact::ControlPart;
 pub use parts::{
     ActivityPart, AreaPart, BodyKind, BodyPart, CarrierMass, CarrierPart, CarrierVelocity, Change,
-    ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement, FeaturesPart,
-    FluidPart, FrictionPart, HeatPart, Interference, LoadPart, MassMatrix, MassPart, Method,
-    Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart,
-    StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
+    CohesionPart, ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement,
+    FeaturesPart, FluidPart, FrictionPart, HeatPart, Interference, LoadPart, MassMatrix, MassPart,
+    Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SofteningPart,
+    SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 pub use summary::{
-    BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
+    BentSummary, CohesionSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace,
+    StartSummary, Treatment,
 };
 
 use crate::contact::Interface;

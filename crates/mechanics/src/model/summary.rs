@@ -35,6 +35,25 @@ pub struct ContactSummary {
     pub shared: Vec<NodeId>,
     /// What is near at the start.
     pub start: StartSummary,
+    /// How the joint breaks; `None`: it does not.
+    pub cohesion: Option<CohesionSummary>,
+}
+
+/// A joint that breaks, and whether its facets resolve the zone in which it does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CohesionSummary {
+    /// Tractions per opening and per shear of what is undamaged.
+    pub stiffness: [f64; 2],
+    /// Size of the facets.
+    pub facet: f64,
+    /// Thickness of the thinner side; `None` where neither ends opposite its face.
+    pub thickness: Option<f64>,
+    /// Length of the zone; `None` where no side yields.
+    pub zone: Option<f64>,
+    /// How many facets the zone should span.
+    pub resolved: f64,
+    /// The strength with which it does; `None` where it does already.
+    pub reduced: Option<[f64; 2]>,
 }
 
 /// Gaps and overlaps at the start.

@@ -239,6 +239,7 @@ fn specimens() -> Vec<Specimen> {
         damping: Damping::default(),
         fluid: None,
         gasket: None,
+        cohesion: None,
     };
     let mut all = vec![
         solid("elastic solid", elastic),

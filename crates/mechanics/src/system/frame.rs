@@ -163,6 +163,12 @@ pub struct ContactFrame {
     pub closure: Vec<f64>,
     /// The largest closure so far.
     pub closure_max: Vec<f64>,
+    /// Damage of the joint at each node, from 0 to 1, the mean over the points around it; empty where none may break.
+    pub damage: Vec<f64>,
+    /// Energy that damage has taken since the start.
+    pub work_damage: f64,
+    /// Work spent since the start by the viscosity that delays damage.
+    pub work_viscous: f64,
     /// Characteristic size of the facets, for judging the penetration.
     pub facet_size: f64,
     /// The largest motion since the start of what touched, along the other side, over that size, and its node; `None` where
@@ -279,7 +285,7 @@ pub struct Energies {
     pub external: f64,
     /// Spent in friction.
     pub friction: f64,
-    /// Spent in damping.
+    /// Spent in damping, and in joints that break.
     pub damping: f64,
 }
 

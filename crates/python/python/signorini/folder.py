@@ -247,6 +247,10 @@ class _FileContact:
         return 0.0 if self._row is None else float(self._reader.history[f"{self.name}.{column}"][self._row])
 
     def __getattr__(self, name: str) -> Any:
+        if name == "damage":
+            return self._array("contact_damage") if "contact_damage" in self._vtu["point_data"] else np.zeros(0)
+        if name in ("work_damage", "work_viscous"):
+            return self._number(name) if f"{self.name}.{name}" in self._reader.history else 0.0
         if name in ARRAYS:
             return self._array(ARRAYS[name])
         if name in NUMBERS:

@@ -107,6 +107,11 @@ class ContactFrame:
         return self._source.area
 
     @property
+    def damage(self) -> Floats:
+        """Damage of a joint that may break, from 0 to 1 `(n,)`; empty where no joint may."""
+        return self._source.damage
+
+    @property
     def nodal_force(self) -> Floats:
         """Contact forces at the nodes `(n, 3)` (force); their sum is `force`."""
         return self._source.nodal_force
@@ -165,6 +170,16 @@ class ContactFrame:
     def work_friction(self) -> float:
         """Work spent in friction since the start (energy)."""
         return float(self._source.work_friction)
+
+    @property
+    def work_damage(self) -> float:
+        """Energy that damage of the joint has taken since the start (energy)."""
+        return float(self._source.work_damage)
+
+    @property
+    def work_viscous(self) -> float:
+        """Work spent since the start by the viscosity that delays damage (energy)."""
+        return float(self._source.work_viscous)
 
     @property
     def closed(self) -> NDArray[np.bool_]:

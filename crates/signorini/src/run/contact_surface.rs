@@ -11,6 +11,7 @@
 //! | `contact_pressure_max` | the largest pressure of these points: its maximum is `pressure_max` of terminal, history and summary |
 //! | `contact_multiplier` | the pressure in the equations, of the multiplier or of the law, never smoothed |
 //! | `contact_multiplier_traction` | the traction in the equations, likewise |
+//! | `contact_damage` | the mean damage of the joint, from 0 to 1; only where one may break |
 
 use super::cells::Cells;
 use super::volume::{facts, place, vectors};
@@ -67,6 +68,13 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     let multiplier = scalars(|c| &c.multiplier);
     let multiplier_traction = all(|c| &c.multiplier_traction);
     let area = scalars(|c| &c.area);
+    let breaks = frame.contacts.iter().any(|c| !c.damage.is_empty());
+    let damage = |c: &ContactFrame| {
+        let none = c.nodes.len() - c.damage.len();
+        let damage = c.damage.clone();
+        damage.into_iter().chain(std::iter::repeat_n(0.0, none))
+    };
+    let damage: Vec<f64> = frame.contacts.iter().flat_map(damage).collect();
     let shear: Vec<f64> = frame.contacts.iter().flat_map(shear).collect();
     let status = frame.contacts.iter().flat_map(|c| c.status.iter());
     let status: Vec<i8> = status.map(|s| s.number()).collect();
@@ -107,6 +115,9 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     ];
     let more = more.iter().filter(|(_, values)| !values.is_empty());
     fields.extend(more.map(|(name, values)| Field::new(name, Values::Scalar(values))));
+    if breaks {
+        fields.push(Field::new("contact_damage", Values::Scalar(&damage)));
+    }
     let (time, place) = ([frame.time], place(frame));
     let grid = Grid {
         points: &points,

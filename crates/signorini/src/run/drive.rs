@@ -12,7 +12,7 @@ use super::start::{Start, begin, facts};
 use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
-use super::{Finished, NOT_STARTED, RunOptions, drift, event_of, failure, solution};
+use super::{Finished, NOT_STARTED, RunOptions, drift, event_of, failure, solution, torn};
 use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
@@ -351,6 +351,8 @@ impl Run<'_, '_> {
         self.report_unless_allowed(far, &mut found);
         let leaks = self.recorder.leaks.warnings(self.model);
         self.report_unless_allowed(leaks, &mut found);
+        let viscous = torn::warnings(&self.recorder.torn);
+        self.report_unless_allowed(viscous, &mut found);
         if verdict.exit_code == 0 && wrong && self.options.strict {
             verdict = Verdict::new(1, "audit failed");
         }

@@ -7,8 +7,8 @@ use signorini_geometry::tensor::Vec3;
 use signorini_io::case::HistorySource;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_io::writers::csv::{
-    CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS, history_columns,
-    reference_columns,
+    COHESION_COLUMNS, CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS,
+    history_columns, reference_columns,
 };
 use signorini_mechanics::system::{ContactFrame, Energies, Frame, Resultant, RigidFrame};
 
@@ -19,6 +19,7 @@ pub struct History {
     contacts: Vec<String>,
     references: Vec<RigidId>,
     has_inertia: bool,
+    breaking: Vec<String>,
     chosen: Vec<Chosen>,
 }
 
@@ -41,7 +42,9 @@ impl History {
         let contacts: Vec<&str> = contacts.iter().map(String::as_str).collect();
         let references: Vec<&str> = model.references.iter().map(|r| r.name.as_str()).collect();
         let has_inertia = has_inertia(model);
-        let standard = history_columns(&contacts, &references, has_inertia, &[]);
+        let breaking = breaking(model);
+        let torn: Vec<&str> = breaking.iter().map(String::as_str).collect();
+        let standard = history_columns(&contacts, &references, has_inertia, &torn, &[]);
         let mut found = Diagnostics::new();
         let mut names = Vec::new();
         let mut chosen = Vec::new();
@@ -61,8 +64,9 @@ impl History {
         }
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         Ok(Self {
-            columns: history_columns(&contacts, &references, has_inertia, &names),
+            columns: history_columns(&contacts, &references, has_inertia, &torn, &names),
             has_inertia,
+            breaking,
             contacts: contacts.iter().map(ToString::to_string).collect(),
             references: model.references.iter().map(|r| r.rigid).collect(),
             chosen,
@@ -104,6 +108,11 @@ impl History {
         if self.has_inertia {
             values.extend(of_energies(&frame.energies.unwrap_or_default()));
         }
+        for name in &self.breaking {
+            let mut of_name = frame.contacts.iter().filter(|c| c.name == *name);
+            let works = of_name.next().map(|c| [c.work_damage, c.work_viscous]);
+            values.extend(works.unwrap_or_default());
+        }
         for one in &self.chosen {
             let value = match one {
                 Chosen::Copy(column) => values.get(*column).copied().unwrap_or(f64::NAN),
@@ -118,6 +127,12 @@ impl History {
 /// Whether anything moves with inertia.
 fn has_inertia(model: &Model) -> bool {
     model.steps.iter().any(|step| step.scheme.is_some())
+}
+
+/// The contacts whose joints may break.
+fn breaking(model: &Model) -> Vec<String> {
+    let all = model.contacts.iter().filter(|c| c.cohesion.is_some());
+    all.map(|c| c.name.clone()).collect()
 }
 
 /// The contacts that have columns: those of the model, and where pairs are found those that the case asks for, which may
@@ -298,7 +313,14 @@ fn choose(
     match source {
         HistorySource::Contact(name) => {
             let known = contacts(model);
-            copy(name, &known, &CONTACT_COLUMNS)
+            match breaking(model).contains(&name.value) {
+                true => copy(
+                    name,
+                    &known,
+                    &[&CONTACT_COLUMNS[..], &COHESION_COLUMNS].concat(),
+                ),
+                false => copy(name, &known, &CONTACT_COLUMNS),
+            }
         }
         HistorySource::Reference(name) => {
             let known = names(model.references.iter().map(|r| &r.name).collect());

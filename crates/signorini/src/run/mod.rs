@@ -44,6 +44,7 @@ mod start;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod torn;
 mod tree;
 mod volume;
 

@@ -15,14 +15,16 @@ use signorini_io::case::{
     Sliding, Stick,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
+use signorini_mechanics::contact::cohesion::{Initiation, Mixity};
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
 use signorini_mechanics::contact::friction;
 use signorini_mechanics::contact::law::{self, ContactLaw, Damping};
 use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::contact::{Critical, Measure};
 use signorini_mechanics::model::{
-    self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FluidPart,
-    FrictionPart, Method, PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
+    self, AreaPart, CohesionPart, ContactChange, ContactPart, ContactSummary, FeaturesPart,
+    FluidPart, FrictionPart, Method, PrimaryPart, SidePart, SofteningPart, StartPart, StickPart,
+    TieOffset, TiePart,
 };
 use signorini_mechanics::system::ReportedAs;
 use signorini_vocabulary::Entry;
@@ -116,6 +118,7 @@ fn contact(
             },
             within: tied.within,
             penalty_tangential: tied.penalty_tangential,
+            cohesion: part.cohesive.as_ref().map(cohesion),
         }),
         start: start(&part.start, names, found),
         reach: part.reach,
@@ -126,6 +129,29 @@ fn contact(
         }),
         ..ContactPart::new(part.name.value.clone(), secondary, primary)
     })
+}
+
+fn cohesion(part: &case::Cohesive) -> CohesionPart {
+    let (mixity, interpolated) = match part.mixity {
+        case::Mixity::Bk(eta) => (Mixity::Interpolated(eta), Initiation::Interpolated(eta)),
+        case::Mixity::Power(alpha) => (Mixity::Power(alpha), Initiation::Quadratic),
+    };
+    CohesionPart {
+        strength: part.strength,
+        toughness: part.toughness,
+        softening: match part.exponential {
+            true => SofteningPart::Exponential,
+            false => SofteningPart::Bilinear {
+                mixity,
+                initiation: match part.quadratic {
+                    true => Initiation::Quadratic,
+                    false => interpolated,
+                },
+                stiffness: part.stiffness,
+            },
+        },
+        viscosity: part.viscosity,
+    }
 }
 
 /// How far points slide. Small-strain theory knows one geometry, that of the start: a contact that acts in linear steps
@@ -368,6 +394,7 @@ pub(super) fn words(summary: &ContactSummary) -> String {
 /// How far its points slide, in words.
 pub(super) fn range(summary: &ContactSummary, tied: bool) -> &'static str {
     match (&summary.method, summary.sliding) {
+        _ if summary.cohesion.is_some() => "joined until it breaks",
         _ if tied => "joined",
         (Method::NodeToNode { .. }, _) => "pairs that stay",
         (_, SlidingRange::Finite) => "finite sliding",

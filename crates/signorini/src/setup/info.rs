@@ -3,7 +3,7 @@
 use super::contact;
 use signorini_geometry::surface::RigidId;
 use signorini_io::case::{Case, Enforcement, Method};
-use signorini_mechanics::model::{ContactSummary, StartSummary};
+use signorini_mechanics::model::{CohesionSummary, ContactSummary, StartSummary};
 
 /// What a contact became.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub struct ContactInfo {
     pub facet_size: f64,
     /// Gaps and overlaps at the start.
     pub start: StartSummary,
+    /// How its joint breaks; `None`: it does not.
+    pub cohesion: Option<CohesionSummary>,
     /// The name that histories have it by: its own, or where nobody names pairs that of all contacts of two bodies.
     pub reported_name: String,
     /// Whether the program found it, where nobody names pairs.
@@ -77,6 +79,7 @@ pub(super) fn contacts(case: &Case, summaries: &[ContactSummary]) -> Vec<Contact
             nfacet: summary.nfacet,
             facet_size: summary.facet_size,
             start: summary.start,
+            cohesion: summary.cohesion,
             reported_name: found.map_or(&summary.name, |found| &found.pair).clone(),
             is_found: found.is_some(),
         }

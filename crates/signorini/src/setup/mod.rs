@@ -25,6 +25,7 @@ mod orientation;
 mod origin;
 mod own;
 mod prints;
+mod process_zones;
 mod refused;
 mod settings;
 mod steps;
@@ -246,6 +247,7 @@ fn build_of(
     }
     found.append(contact::sharing(&case, &model.contacts, &names));
     found.append(gaps::findings(&case, &mesh, &contacts));
+    found.append(process_zones::findings(&case, &contacts));
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);
     choices::choose(&mut case, &carriers, &model.contacts, &model.locking);

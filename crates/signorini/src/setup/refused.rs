@@ -106,6 +106,7 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
         | ModelError::Glued { .. }
         | ModelError::TooDeep { .. }
         | ModelError::TwoPass { .. }
+        | ModelError::Cohesion { .. }
         | ModelError::Unsuited { .. }
         | ModelError::NoDualBasis { .. }
         | ModelError::PairCount { .. }
@@ -191,6 +192,11 @@ fn of_contact_error<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             &codes::BAD_SIDES,
             contact,
             "let one of the bodies deform, or:  enforcement = { penalty = 1e5 }",
+        ),
+        ModelError::Cohesion { contact, .. } => (
+            &codes::CONTRADICTION,
+            contact,
+            "correct  cohesive = { strength, toughness, stiffness }",
         ),
         ModelError::Unsuited { contact, .. } => (&codes::BAD_SIDES, contact, ""),
         ModelError::NoDualBasis { contact, .. } => (

@@ -13,6 +13,7 @@ mod assemblies;
 mod bars;
 mod beam;
 mod clamped;
+mod cohesion;
 mod complementarity;
 mod enforcement;
 mod faceted;

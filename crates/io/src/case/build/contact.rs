@@ -120,7 +120,8 @@ impl Builder<'_> {
                 "opposite" => Area::Opposite,
                 _ => Area::Reference,
             },
-            enforcement: self.enforcement(fields),
+            adhesion: fields.has("adhesion"),
+            enforcement: adhesion(fields).unwrap_or_else(|| self.enforcement(fields)),
             per: per(fields),
             friction: self.friction(fields),
             remembers_traction: fields.text("friction_history").value == "traction",
@@ -143,6 +144,7 @@ impl Builder<'_> {
                 _ => Features::Auto,
             },
             tied: tied(fields),
+            cohesive: cohesive(fields),
             start: start(fields.table("start")),
             normals: self.normals(fields),
             basis: match fields.text("basis").value.as_str() {
@@ -159,12 +161,31 @@ impl Builder<'_> {
             found: None,
             place,
         };
+        if fields.has("adhesion")
+            && fields
+                .get("enforcement")
+                .is_some_and(|e| e.get_ref().is_table())
+        {
+            self.error(
+                &codes::CONTRADICTION,
+                "`adhesion` stands in place of `enforcement`",
+                &fields.place("enforcement"),
+                "delete it, or write the law of adhesion there",
+            );
+        }
         self.sides(&contact);
         self.what_goes_with_the_method(&contact, fields);
         self.what_goes_with_multipliers(&contact, fields);
         self.what_goes_with_seals(&contact, fields);
         if contact.tied.is_some() {
             self.what_goes_with_a_tie(&contact, fields);
+        } else if contact.cohesive.is_some() {
+            self.error(
+                &codes::CONTRADICTION,
+                "`cohesive` goes with sides that are joined",
+                &fields.place("cohesive"),
+                "write  tied = true",
+            );
         }
         contact
     }
@@ -379,10 +400,42 @@ impl Builder<'_> {
                 "write a `penalty` as `enforcement`, and the `method` \"node-to-segment\" or \"gauss-point\"",
             );
         }
+        let exact = matches!(
+            contact.enforcement,
+            Enforcement::Lagrange | Enforcement::Augmented { .. }
+        );
+        let breaks = contact.cohesive.is_some();
+        let cohesive = fields.table("cohesive");
+        let own = ["mixity", "initiation", "stiffness"];
+        let of_bilinear = own.into_iter().find(|key| cohesive.has(key));
+        if let Some(key) = of_bilinear.filter(|_| contact.cohesive.is_some_and(|c| c.exponential)) {
+            self.error(
+                &codes::CONTRADICTION,
+                format!("`{key}` does not go with exponential softening"),
+                &cohesive.place(key),
+                "its strength and toughness say everything: delete it",
+            );
+        }
         for (key, wrong, remark) in [
             (
+                "enforcement",
+                breaks && (exact || contact.per == Some(Per::Node)),
+                "a joint that breaks is a stiffness per area: give a `penalty`",
+            ),
+            (
+                "passes",
+                breaks && contact.two_pass,
+                "a joint that breaks would be twice as strong: write  passes = 1",
+            ),
+            (
+                "tied",
+                breaks && contact.tied.as_ref().is_some_and(pulls),
+                "the stiffness of a joint that breaks is  cohesive = { stiffness = [opening, shear] }, and it holds where the \
+                 sides are at the start",
+            ),
+            (
                 "friction",
-                contact.friction.is_some(),
+                contact.friction.is_some() && !breaks,
                 "what is joined does not slide",
             ),
             (
@@ -634,6 +687,42 @@ fn tied(fields: Fields<'_>) -> Option<Tied> {
         },
         within: table.number_if("within").map(|within| within.value),
         penalty_tangential: table.number_if("penalty_tangential").map(|one| one.value),
+    })
+}
+
+/// The law of adhesion; none where nothing pulls.
+fn adhesion(fields: Fields<'_>) -> Option<Enforcement> {
+    let table = fields.table("adhesion");
+    let law = match table.text("shape").value.as_str() {
+        "lennard-jones" => "lennard_jones",
+        _ => "dugdale",
+    };
+    let work = table.number_if("work")?.value;
+    let range = table.number_if("range")?.value;
+    Some(Enforcement::Law(Chosen::new(
+        law,
+        [("work", work), ("range", range)],
+    )))
+}
+
+fn cohesive(fields: Fields<'_>) -> Option<Cohesive> {
+    let table = fields.table("cohesive");
+    let pair = |key: &str| table.get(key).and_then(|value| numbers(value.get_ref()));
+    let mixity = table.table("mixity");
+    let exponent = |key: &str| mixity.number_if(key).map(|one| one.value);
+    let one = table.number_if("stiffness").map(|one| [one.value; 2]);
+    Some(Cohesive {
+        strength: pair("strength")?,
+        toughness: pair("toughness")?,
+        mixity: match (exponent("bk"), exponent("power")) {
+            (Some(eta), _) => Mixity::Bk(eta),
+            (None, Some(alpha)) => Mixity::Power(alpha),
+            (None, None) => Mixity::default(),
+        },
+        quadratic: table.text("initiation").value == "quadratic",
+        exponential: table.text("softening").value == "exponential",
+        stiffness: one.or_else(|| pair("stiffness")),
+        viscosity: table.number("viscosity"),
     })
 }
 

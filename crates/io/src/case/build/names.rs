@@ -433,7 +433,7 @@ impl Builder<'_> {
                     );
                 }
                 let tied = of_name.get(change.name.as_str());
-                if tied.is_some_and(|contact| contact.tied.is_some())
+                if tied.is_some_and(|contact| contact.tied.is_some() && contact.cohesive.is_none())
                     && matches!(change.friction, Some(Some(_)))
                 {
                     self.error(

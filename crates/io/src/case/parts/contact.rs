@@ -26,6 +26,8 @@ pub struct Contact {
     pub area: Area,
     /// How penetration is prevented.
     pub enforcement: Enforcement,
+    /// Whether that is a law of adhesion, given as such.
+    pub adhesion: bool,
     /// Per node (force per length) or per area (stress per length); none: by what the secondary side is.
     pub per: Option<Per>,
     /// Friction; none: frictionless.
@@ -53,6 +55,8 @@ pub struct Contact {
     pub features: Features,
     /// Whether the sides are joined.
     pub tied: Option<Tied>,
+    /// How the joint of sides that are joined breaks; none: it does not.
+    pub cohesive: Option<Cohesive>,
     /// What is done about gaps and overlaps at the start; by default for sides that are joined.
     pub start: Start,
     /// The normals of [`Method::NodeToNode`] and [`Method::Mortar`].
@@ -83,6 +87,7 @@ impl Contact {
             rule: PointRule::default(),
             area: Area::Reference,
             enforcement: Enforcement::Auto,
+            adhesion: false,
             per: None,
             friction: None,
             remembers_traction: false,
@@ -96,6 +101,7 @@ impl Contact {
             sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,
+            cohesive: None,
             start: Start::default(),
             normals: Normals::Primary,
             basis: Basis::Part,
@@ -319,6 +325,40 @@ pub struct Tied {
     pub within: Option<f64>,
     /// Traction per way apart within the tangent plane, of joints by a penalty; none: as along the normal.
     pub penalty_tangential: Option<f64>,
+}
+
+/// How a joint breaks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cohesive {
+    /// The largest tractions along the normal and across it.
+    pub strength: [f64; 2],
+    /// The energies per area that opening and shear take.
+    pub toughness: [f64; 2],
+    /// The toughness between them.
+    pub mixity: Mixity,
+    /// Whether damage begins where squares of tractions over strengths add up to 1, whatever the mixity.
+    pub quadratic: bool,
+    /// Whether it softens exponentially.
+    pub exponential: bool,
+    /// Tractions per opening and per shear before damage begins; none: the program chooses.
+    pub stiffness: Option<[f64; 2]>,
+    /// The time by which damage is delayed.
+    pub viscosity: f64,
+}
+
+/// The toughness between opening and shear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mixity {
+    /// Interpolated with this exponent of the share of shear in the energy (Benzeggagh and Kenane).
+    Bk(f64),
+    /// The energies over the toughnesses to this power add up to 1.
+    Power(f64),
+}
+
+impl Default for Mixity {
+    fn default() -> Self {
+        Self::Bk(2.0)
+    }
 }
 
 /// What is done about gaps and overlaps at the start.

@@ -35,10 +35,10 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         ("method", method(*contact.method).into()),
         ("passes", passes.into()),
         ("area", area.into()),
-        (
+        pull(contact).unwrap_or((
             "enforcement",
             enforcement(&contact.enforcement, contact.per),
-        ),
+        )),
         ("friction", friction(contact.friction.as_ref())),
         ("friction_history", history.into()),
         (
@@ -86,6 +86,8 @@ pub(super) fn contact(contact: &Contact) -> Entries {
     if contact.gasket.is_some() {
         entries.retain(|(key, _)| *key != "enforcement");
     }
+    let cohesive = contact.cohesive.as_ref();
+    entries.extend(cohesive.map(|one| ("cohesive", self::cohesive(one))));
     match contact.tied {
         None => entries.push(("start", start(&contact.start))),
         Some(_) => entries.extend(closing(&contact.start).map(|start| ("start", start))),
@@ -100,7 +102,15 @@ pub(super) fn general(general: &General) -> Entries {
         None => (&one.value).into(),
     };
     let mut entries = contact(&general.common);
-    let own = ["name", "secondary", "primary", "passes", "tied", "reach"];
+    let own = [
+        "name",
+        "secondary",
+        "primary",
+        "passes",
+        "tied",
+        "cohesive",
+        "reach",
+    ];
     entries.retain(|(key, _)| !own.contains(key));
     let of = match general.of.is_empty() {
         true => true.into(),
@@ -259,6 +269,49 @@ fn tied(tied: &Tied) -> Value {
     entries.extend(tied.within.map(|within| ("within", within.into())));
     let tangential = tied.penalty_tangential;
     entries.extend(tangential.map(|penalty| ("penalty_tangential", penalty.into())));
+    Value::Table(entries)
+}
+
+/// The law of adhesion, where it is given as such.
+fn pull(contact: &Contact) -> Option<(&'static str, Value)> {
+    match &contact.enforcement {
+        Enforcement::Law(law) if contact.adhesion => {
+            let mut entries = values(&law.values);
+            let shape = match law.name {
+                "lennard_jones" => "lennard-jones",
+                other => other,
+            };
+            entries.push(("shape", shape.into()));
+            Some(("adhesion", Value::Table(entries)))
+        }
+        _ => None,
+    }
+}
+
+fn cohesive(one: &Cohesive) -> Value {
+    let pair = |[opening, shear]: [f64; 2]| list([opening, shear]);
+    let mixity = match one.mixity {
+        Mixity::Bk(eta) => ("bk", eta.into()),
+        Mixity::Power(alpha) => ("power", alpha.into()),
+    };
+    let initiation = if one.quadratic { "quadratic" } else { "mixity" };
+    let softening = match one.exponential {
+        true => "exponential",
+        false => "bilinear",
+    };
+    let mut entries = vec![
+        ("strength", pair(one.strength)),
+        ("toughness", pair(one.toughness)),
+        ("softening", softening.into()),
+        ("viscosity", one.viscosity.into()),
+    ];
+    if !one.exponential {
+        entries.extend([
+            ("mixity", Value::Table(vec![mixity])),
+            ("initiation", initiation.into()),
+            ("stiffness", one.stiffness.map_or("auto".into(), pair)),
+        ]);
+    }
     Value::Table(entries)
 }
 

@@ -30,7 +30,7 @@ fn examples_of_the_page_about_contact_read_without_a_warning() {
         assert!(warnings.is_empty(), "{warnings}");
         case
     };
-    assert_eq!(case(contacts).contacts.len(), 7);
+    assert_eq!(case(contacts).contacts.len(), 8);
     let cells = PAGE.lines().filter_map(|line| line.strip_prefix("| "));
     let laws = cells.flat_map(|line| line.split('`').skip(1).step_by(2));
     let laws: Vec<&str> = laws.filter(|law| law.starts_with('{')).collect();
@@ -48,7 +48,7 @@ fn examples_of_the_page_about_contact_read_without_a_warning() {
         };
         let other =
             format!("[[contact]]\nname = 'other'\nsecondary = 'x'\nprimary = 'y'\n{key} = {law}\n");
-        assert_eq!(case(&format!("{contacts}{other}")).contacts.len(), 8);
+        assert_eq!(case(&format!("{contacts}{other}")).contacts.len(), 9);
     }
 }
 

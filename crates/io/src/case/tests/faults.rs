@@ -301,6 +301,28 @@ fn friction() -> Vec<Fault> {
             law("{ exponential = { p0 = 1.0, c0 = 0.1 } }")
                 .replace("friction    = 0.0", "tied = true"),
         ),
+        (
+            "what breaks and is not joined",
+            contact("cohesive = { strength = [1, 2], toughness = [0.1, 0.2] }"),
+        ),
+        (
+            "a joint that breaks, by forces and twice",
+            contact(
+                "tied = { penalty_tangential = 10 }\npasses = 2\n\
+                 cohesive = { strength = [1, 2], toughness = [0.1, 0.1], softening = \"exponential\", stiffness = 3 }",
+            ),
+        ),
+        (
+            "two ways to pull",
+            contact("adhesion = { work = 0.1, range = 0.01 }"),
+        ),
+        (
+            "numbers of a joint that breaks",
+            contact(
+                "tied = true\n\
+                 cohesive = { strength = [1, 0], toughness = [0.1], mixity = { bk = 2, power = 1 } }",
+            ),
+        ),
     ]
 }
 

@@ -68,6 +68,7 @@ pub(super) static CONTACT: Table = Table {
             "how penetration is prevented",
         )
         .or(Default::Text("auto")),
+        key("adhesion", Shape::Table(&ADHESION), ADHESION.doc),
         FRICTION_KEY.or(Default::Number(0.0)),
         key(
             "friction_history",
@@ -125,6 +126,9 @@ pub(super) static CONTACT: Table = Table {
         )
         .or(Default::Flag(false))
         .hints(&["bonded", "glued", "tie"]),
+        key("cohesive", Shape::Table(&COHESIVE), COHESIVE.doc).hints(&[
+            "cohesion", "adhesive", "czm", "damage",
+        ]),
         key("start", Shape::Table(&START), START.doc).hints(&["adjust", "initial"]),
         key(
             "normals",
@@ -556,6 +560,97 @@ static TIED: Table = Table {
         ),
     ],
     rules: &[],
+};
+
+static ADHESION: Table = Table {
+    heading: "adhesion",
+    doc: "a pull between sides that are near, in place of `enforcement`: { work, range, shape }",
+    keys: &[
+        key("work", POSITIVE, "work of adhesion, per area (force per length)").required(),
+        key(
+            "range",
+            POSITIVE,
+            "of \"dugdale\" the gap up to which it pulls, of \"lennard-jones\" the distance of atoms that touch (length)",
+        )
+        .required(),
+        key(
+            "shape",
+            Shape::Choice(&[word("dugdale"), word("lennard-jones")]),
+            "dugdale: the same tension up to the range; lennard-jones: as between half-spaces of atoms",
+        )
+        .or(Default::Text("dugdale")),
+    ],
+    rules: &[],
+};
+
+static COHESIVE: Table = Table {
+    heading: "cohesive",
+    doc: "with `tied`: how the joint breaks",
+    keys: &[
+        key(
+            "strength",
+            Shape::Row("[opening, shear]", &[POSITIVE, POSITIVE]),
+            "the largest tractions along the normal and across it",
+        )
+        .required(),
+        key(
+            "toughness",
+            Shape::Row("[opening, shear]", &[POSITIVE, POSITIVE]),
+            "the energies per area that opening and shear take (force per length)",
+        )
+        .required()
+        .hints(&["energy", "fracture_energy"]),
+        key("mixity", Shape::Table(&MIXITY), MIXITY.doc).hints(&["mixed_mode"]),
+        key(
+            "initiation",
+            Shape::Choice(&[word("mixity"), word("quadratic")]),
+            "where damage begins between opening and shear: interpolated as the toughness is by `bk`, or where the squares of \
+             tractions over strengths add up to 1, as by `power`",
+        )
+        .or(Default::Text("mixity")),
+        key(
+            "softening",
+            Shape::Choice(&[word("bilinear"), word("exponential")]),
+            "bilinear: elastic up to the strength, then linear; exponential: curved from the start, with one toughness",
+        )
+        .or(Default::Text("bilinear")),
+        key(
+            "stiffness",
+            Shape::Either(&[
+                AUTO,
+                POSITIVE,
+                Shape::Row("[opening, shear]", &[POSITIVE, POSITIVE]),
+            ]),
+            "traction per opening before damage begins, of both directions or of each; auto: as stiff as contact, and no less \
+             than ten times what breaks at once",
+        )
+        .or(Default::Text("auto")),
+        key(
+            "viscosity",
+            NOT_NEGATIVE,
+            "time by which damage is delayed, for the sake of convergence; its work is reported",
+        )
+        .or(Default::Number(0.0)),
+    ],
+    rules: &[],
+};
+
+static MIXITY: Table = Table {
+    heading: "mixity",
+    doc: "the toughness between opening and shear: { bk = exponent } of Benzeggagh and Kenane, or { power = exponent }",
+    keys: &[
+        key(
+            "bk",
+            POSITIVE,
+            "exponent of the share of shear in the energy",
+        ),
+        key(
+            "power",
+            POSITIVE,
+            "exponent of the ratios of energies and toughnesses",
+        ),
+    ],
+    rules: &[Rule::AtMostOne(&["bk", "power"])],
 };
 
 static START: Table = Table {

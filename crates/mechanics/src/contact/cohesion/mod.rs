@@ -40,6 +40,7 @@ mod tests;
 pub use bilinear::{Bilinear, Initiation, Mixity};
 pub use exponential::Exponential;
 
+use signorini_geometry::tensor::Vec3;
 use std::fmt::{self, Debug};
 use std::sync::Arc;
 
@@ -71,6 +72,15 @@ pub struct Damage {
     pub grown: f64,
     /// D_v.
     pub acting: f64,
+}
+
+/// What a bond has suffered.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Torn {
+    /// The damage.
+    pub damage: Damage,
+    /// The stretch within the tangent plane at which friction would be none.
+    pub sticks: Vec3,
 }
 
 /// A cohesive law with its viscosity.

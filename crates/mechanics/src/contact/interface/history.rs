@@ -1,5 +1,6 @@
 //! What a contact remembers.
 
+use super::bonds::Bonds;
 use super::coupled::Coupled;
 use super::memory::{Ends, Memory};
 use super::{
@@ -162,7 +163,8 @@ impl Interface {
     /// Holds the limits of friction; says whether that is anything new.
     /// What slips then has a potential, and its tangent is symmetric.
     pub(super) fn hold_limits(&mut self) -> bool {
-        if self.laws().friction.is_none() || self.history.limits.is_some() {
+        let laws = self.laws();
+        if laws.friction.is_none() || laws.cohesion.is_some() || self.history.limits.is_some() {
             return false;
         }
         self.history.limits = Some(Vec::new());
@@ -373,6 +375,9 @@ impl Interface {
         if let Some(ends) = self.ends.to_numbers() {
             out.put(name("ends"), &ends);
         }
+        if self.parts.cohesion.is_some() {
+            out.put(name("torn"), &self.bonds.to_numbers());
+        }
         out.put(name("points"), &self.stored_points());
         let shifts = self.parts.shifts.iter();
         let shifts: Vec<f64> = shifts.flat_map(|s| [s.constant, s.fading]).collect();
@@ -459,6 +464,11 @@ impl Interface {
             let mut ends = vec![0.0; count];
             from.get(&name("ends"), &mut ends)?;
             self.ends = Ends::from_numbers(&ends);
+        }
+        if self.parts.cohesion.is_some() {
+            let mut torn = vec![0.0; Bonds::length(nrow)];
+            from.get(&name("torn"), &mut torn)?;
+            self.bonds = Bonds::from_numbers(&torn);
         }
         let mut shifts = vec![0.0; from.length(&name("shifts"))?];
         from.get(&name("shifts"), &mut shifts)?;

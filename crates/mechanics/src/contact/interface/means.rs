@@ -15,6 +15,7 @@ pub(super) struct Means {
     pub multiplier_traction: Vec<Vec3>,
     pub slip: Vec<Vec3>,
     pub elastic_slip: Vec<Vec3>,
+    pub damage: Vec<f64>,
 }
 
 /// What a row adds to the means.
@@ -29,6 +30,8 @@ pub(super) struct OfRow {
     pub multiplier_traction: Vec3,
     pub slip: Vec3,
     pub elastic_slip: Vec3,
+    /// Of a bond that may break.
+    pub damage: f64,
 }
 
 impl Means {
@@ -44,6 +47,7 @@ impl Means {
             multiplier_traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],
             elastic_slip: vec![Vec3::ZERO; n],
+            damage: vec![0.0; n],
         }
     }
 
@@ -58,6 +62,7 @@ impl Means {
         self.multiplier_traction[k] += row.multiplier_traction * weight;
         self.slip[k] += row.slip * weight;
         self.elastic_slip[k] += row.elastic_slip * weight;
+        self.damage[k] += weight * row.damage;
     }
 
     /// A row that meets nothing.
@@ -78,6 +83,7 @@ impl Means {
             multiplier_traction: self.multiplier_traction[k] / whole,
             slip: self.slip[k] / weight,
             elastic_slip: self.elastic_slip[k] / weight,
+            damage: self.damage[k] / weight,
         })
     }
 }

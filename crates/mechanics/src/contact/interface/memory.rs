@@ -134,6 +134,7 @@ impl History {
             path: self.paths.get(row).copied().unwrap_or_default(),
             limit: self.limits.as_ref().and_then(|l| l.get(row).copied()),
             state: Contact::Open,
+            ..Past::default()
         }
     }
 

@@ -2,7 +2,9 @@
 
 mod asked;
 mod audited;
+mod bonds;
 mod carried;
+mod cohesive;
 mod conducting;
 mod coupled;
 mod damped;
@@ -53,6 +55,7 @@ use crate::system::{
     Verdict,
 };
 use asked::Asked;
+use bonds::Bonds;
 use coupled::Coupled;
 use judged::Judged;
 use lents::Lents;
@@ -119,6 +122,8 @@ pub struct Interface {
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
     astray: Vec<(usize, Pair)>,
     gaps: DynamicGaps,
+    /// Bonds that may break; empty where none do.
+    bonds: Bonds,
     /// Forces at the ends of increments, where those before count.
     ends: Ends,
     /// The length of the increment; 0 where none has begun.
@@ -191,6 +196,7 @@ impl Interface {
             drift: None,
             astray: Vec::new(),
             gaps: DynamicGaps::default(),
+            bonds: Bonds::default(),
             ends: Ends::default(),
             duration: 0.0,
             increment_start: 0.0,
@@ -237,6 +243,8 @@ impl Interface {
             has_past: self.parts.gasket.is_some(),
             bond: self.parts.bond.is_some(),
             bond_tangential: self.parts.bond_tangential,
+            cohesion: self.parts.cohesion.as_ref(),
+            duration: self.duration,
             vectors: self.parts.has_vectors(),
             shear: self.parts.scale.shear,
             vibrates: self.step.vibrates,
@@ -257,7 +265,7 @@ impl Interface {
     fn past(&self, row: usize) -> Past {
         Past {
             state: self.judged.get(row).map_or(Contact::Open, |j| j.state),
-            ..self.history.past(row)
+            ..self.past_of_increment(row)
         }
     }
 
@@ -432,6 +440,7 @@ impl Interface {
             self.let_go();
             self.search(&at).map_err(|e| self.failed(&e))?;
         }
+        self.begin_bonds(from)?;
         self.sees_others |= self.lend(from)?;
         if !self.conserves() {
             // energy is stored over areas that stay

@@ -2,6 +2,7 @@
 
 use super::conducting::ContactHeat;
 use super::wet::Fluid;
+use crate::contact::cohesion::Cohesion;
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{ContactLaw, Damping, Gasket, Penalty, Scale};
@@ -94,6 +95,8 @@ pub struct InterfaceParts {
     /// The stiffness of such a bond within the tangent plane at the start of each increment, if the law is a penalty;
     /// `None`: as along the normal.
     pub bond_tangential: Option<f64>,
+    /// How such a bond breaks, in tractions and with a law that is a penalty; `None`: it does not.
+    pub cohesion: Option<Cohesion>,
     /// What the law's pressure acts on.
     pub measure: Measure,
     /// Tributary area of each row; empty where the secondary side has none.
@@ -154,6 +157,7 @@ impl InterfaceParts {
             remembers_traction: false,
             bond: None,
             bond_tangential: None,
+            cohesion: None,
             measure: Measure::Node,
             area: Vec::new(),
             areas: None,

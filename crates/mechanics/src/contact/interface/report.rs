@@ -32,6 +32,7 @@ struct Found {
     /// Along which a pressure pushes.
     direction: Vec3,
     elastic_slip: Vec3,
+    damage: f64,
 }
 
 /// A report while rows are added to it.
@@ -75,6 +76,9 @@ impl Sums {
                 report.multiplier_traction[k] = mean.multiplier_traction;
                 report.slip[k] = mean.slip;
                 report.elastic_slip[k] = mean.elastic_slip;
+                if let Some(damage) = report.damage.get_mut(k) {
+                    *damage = mean.damage;
+                }
                 // rows of its node that meet nothing, as on another side of an edge, have no part in the means
                 report.area[k] = means.whole[k];
             }
@@ -195,6 +199,13 @@ impl Interface {
         self.describe_closures(state, &mut report)?;
         self.describe_fluid(state, &mut report)?;
         report.work_friction = self.history.work;
+        [report.work_damage, report.work_viscous] = self.bonds.spent;
+        let torn: f64 = self.bonds.spent.iter().sum();
+        if torn != 0.0
+            && let Some(energies) = &mut frame.energies
+        {
+            energies.damping += torn;
+        }
         if self.history.damped[0] != 0.0 {
             frame.energies.get_or_insert_default().damping += self.history.damped[0];
         }
@@ -222,6 +233,7 @@ impl Interface {
             multiplier_traction: (found.direction * raw.pressure + raw.shear) * stretch,
             slip: self.history.slip(row),
             elastic_slip: found.elastic_slip,
+            damage: found.damage,
         })
     }
 
@@ -339,6 +351,7 @@ impl Interface {
                 gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
                 reported.status = Status::Open;
                 let (mut elastic_slip, mut direction) = (Vec3::ZERO, Vec3::ZERO);
+                let damage = self.damage(filled).unwrap_or_default();
                 if acts {
                     let lambda = self.lambda(row, state);
                     let traction = self.traction(filled, &lambda);
@@ -360,7 +373,7 @@ impl Interface {
                     reported.status = match traction.state {
                         _ if on_row.pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
                         Contact::Open => Status::Open,
-                        Contact::Stick if self.parts.bond.is_some() => Status::Tied,
+                        Contact::Stick if self.parts.bond.is_some() && damage < 1.0 => Status::Tied,
                         Contact::Stick => Status::Stick,
                         Contact::Slip => Status::Slip,
                     };
@@ -370,6 +383,7 @@ impl Interface {
                     gap: filled.gap,
                     direction,
                     elastic_slip,
+                    damage,
                 });
             }
             let weight = on_row.pressure * present;
@@ -460,7 +474,7 @@ impl Interface {
     fn stored(&self, filled: &Row, lambda: &Lambda, traction: &Traction) -> f64 {
         let laws = self.laws();
         if laws.bond {
-            return laws.bond_energy(filled);
+            return laws.bond_energy(filled, &self.past_of_increment(filled.number));
         }
         let stretched = match self.step.scheme {
             // what has slipped in the increment is spent
@@ -552,6 +566,11 @@ impl Interface {
             energy: vec![0.0; n],
             faces: inside.map(|_| Vec::new()),
             area: vec![0.0; n],
+            damage: self
+                .parts
+                .cohesion
+                .as_ref()
+                .map_or_else(Vec::new, |_| vec![0.0; n]),
             facet_size: self.parts.scale.length,
             reported_as: self.parts.reported_as.clone(),
             drift: self.drift,

@@ -170,6 +170,9 @@ impl Interface {
                 row.sliding.slip += row.normal * shift;
                 row.sliding.free = lends;
             }
+            if laws.cohesion.is_some() {
+                self.turn_bond(row);
+            }
         }
         Ok(())
     }
@@ -322,7 +325,7 @@ impl Interface {
             match self.step.vibrates {
                 // what slips is at its limit, and goes on slipping
                 true => self.past(number),
-                false => self.history.past(number),
+                false => self.past_of_increment(number),
             },
         );
         let laws = Laws {
@@ -437,7 +440,8 @@ impl Interface {
             self.fill(row, trial, RowOrder::Gradient, rows)?;
             let filled = rows.rows().first();
             let stretch = filled.map_or(Vec3::ZERO, |r| r.sliding.slip);
-            let stored = filled.map_or(0.0, |r| laws.bond_energy(r));
+            let past = self.past_of_increment(row);
+            let stored = filled.map_or(0.0, |r| laws.bond_energy(r, &past));
             return Ok(Some(stored + lambda.vector.dot(stretch)));
         }
         let held = self.history.past(row).limit;

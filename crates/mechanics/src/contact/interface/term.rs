@@ -25,9 +25,11 @@ impl Term for Interface {
         // with inertia, weights that turn are those of one state, and gaps those of another
         let turns = self.step.scheme.is_some() && !capabilities.keeps();
         let is_symmetric = capabilities.is_symmetric && !turns;
-        let symmetry = if rubs || tractions || !is_symmetric || self.couples_heat() {
+        let tears = self.parts.cohesion.is_some();
+        let couples = tears || self.couples_heat();
+        let symmetry = if rubs || tractions || couples || !is_symmetric {
             Symmetry::Unsymmetric
-        } else if self.nmultiplier() > 0 {
+        } else if self.nmultiplier() > 0 || self.parts.law.softens() {
             Symmetry::Symmetric
         } else {
             Symmetry::Definite
@@ -98,7 +100,8 @@ impl Term for Interface {
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
         let laws = self.laws();
-        if (laws.friction.is_some() && !self.history.holds_limits()) || self.nmultiplier() > 0 {
+        let no_potential = laws.cohesion.is_some() || self.nmultiplier() > 0;
+        if (laws.friction.is_some() && !self.history.holds_limits()) || no_potential {
             return Ok(None);
         }
         let rows = &mut work.of::<Scratch>().rows;
@@ -273,6 +276,7 @@ impl Stored for Interface {
         if let Some(farthest) = self.farthest(state) {
             self.drift = self.drift.filter(|d| d.0 >= farthest.0).or(Some(farthest));
         }
+        self.tear(state)?;
         self.remember(state)
     }
 

@@ -68,7 +68,7 @@ pub trait ContactLaw: Debug + Send + Sync {
     }
 
     /// The pressures of many rows, ≥ 0 in compression; all zero where one is open. A law may pull a little
-    /// ([`Arctangent`](super::Arctangent)).
+    /// ([`Arctangent`](super::Arctangent)), or as adhesion does ([`Dugdale`](super::Dugdale)).
     ///
     /// # Shapes
     /// One gap, one multiplier and one answer for each row. What a row is answered does not depend on the others:
@@ -102,6 +102,11 @@ pub trait ContactLaw: Debug + Send + Sync {
             dgap: scale.penalty * c.dgap,
             dlambda: 1.0 + scale.penalty * c.dlambda,
         }
+    }
+
+    /// Whether its pressure may grow with the gap: the stiffness is then not definite, and states may be unstable.
+    fn softens(&self) -> bool {
+        false
     }
 
     /// The potential of the pressure, `p = −∂W/∂g`, where there is one.

@@ -13,6 +13,7 @@
 //! | [`Penalty`] | none | ε⟨−g⟩ | |
 //! | [`Table`], [`Exponential`], [`Arctangent`] | none | a curve that falls with the gap | |
 //! | [`Gasket`] | its place has the largest closure so far | a curve in closing, others in opening | |
+//! | [`Dugdale`], [`LennardJones`] | none | a curve that pulls before the sides touch |
 //! | [`Uzawa`] | frozen | ⟨λ − εg⟩ | then λ ← p |
 //! | [`AugmentedNewton`] | unknown | ⟨λ − εg⟩ | (p − λ)/ε |
 //! | [`Lagrange`] | unknown | λ where λ > cg, else 0 | (⟨λ − cg⟩ − λ)/c |
@@ -32,10 +33,12 @@ mod augmented;
 mod conductance;
 mod damping;
 mod definition;
+mod dugdale;
 mod exponential;
 mod gasket;
 mod impulse;
 mod lagrange;
+mod lennard_jones;
 mod penalty;
 mod secant;
 mod table;
@@ -48,10 +51,12 @@ pub use conductance::{Between, Conductance, Conducted};
 pub use damping::Damping;
 use definition::TOUCH;
 pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};
+pub use dugdale::Dugdale;
 pub use exponential::Exponential;
 pub use gasket::{Gasket, GasketError};
 pub(super) use impulse::Impulse;
 pub use lagrange::Lagrange;
+pub use lennard_jones::LennardJones;
 pub use penalty::Penalty;
 pub(super) use secant::secant;
 use signorini_vocabulary::{Description, Entry};
@@ -71,7 +76,12 @@ pub use table::{Table, TableError};
 /// assert!((law.pressure(0.0, 0.0, &scale).value - 5.0).abs() < 1e-14);
 /// # Ok::<(), signorini_vocabulary::Fault>(())
 /// ```
-pub static TABLE: [Entry<Arc<dyn ContactLaw>>; 2] = [exponential::ENTRY, arctangent::ENTRY];
+pub static TABLE: [Entry<Arc<dyn ContactLaw>>; 4] = [
+    exponential::ENTRY,
+    arctangent::ENTRY,
+    dugdale::ENTRY,
+    lennard_jones::ENTRY,
+];
 
 /// The names and keys of all laws of [`TABLE`].
 #[must_use]

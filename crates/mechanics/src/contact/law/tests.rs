@@ -33,6 +33,14 @@ fn all() -> Vec<Box<dyn ContactLaw>> {
         }),
         Box::new(Table::new(rows).unwrap()),
         Box::new(gasket()),
+        Box::new(Dugdale {
+            work: 0.02,
+            range: 0.2,
+        }),
+        Box::new(LennardJones {
+            work: 0.02,
+            range: 0.2,
+        }),
     ]
 }
 
@@ -61,6 +69,34 @@ fn pressure_is_minus_the_slope_of_energy() {
             }
         }
     }
+}
+
+#[test]
+fn what_pulls_takes_its_work_of_adhesion() {
+    let (work, range) = (0.05, 0.3);
+    let dugdale = Dugdale { work, range };
+    let atoms = LennardJones { work, range };
+    let laws: [(&dyn ContactLaw, f64); 2] = [(&dugdale, 1.2), (&atoms, 3000.0)];
+    for (law, end) in laws {
+        // with steps that grow as the gap does
+        let (mut sum, steps) = (0.0, 400_000);
+        let gap = |k: i32| range * ((1.0 + end).powf(f64::from(k) / f64::from(steps)) - 1.0);
+        let p = |g: f64| law.pressure(g.max(1e-300), 0.0, &SCALE).value;
+        for k in 0..steps {
+            let (a, b) = (gap(k), gap(k + 1));
+            sum -= (b - a) * (p(a) + 4.0 * p(0.5 * (a + b)) + p(b)) / 6.0;
+        }
+        assert!((sum - work).abs() < 1e-6 * work, "{law:?}: {sum}");
+        assert!(law.softens());
+    }
+    // INTERFACES: the largest pull 1.0264 w/z0 at 0.2009 z0, and the slope at contact 16 w/z0²
+    let at = atoms.pressure(0.200_937 * range, 0.0, &SCALE);
+    assert!((at.value + 1.026_400 * work / range).abs() < 1e-6 * work / range);
+    let touch = atoms.pressure(0.0, 0.0, &SCALE);
+    assert!((touch.dgap + 16.0 * work / (range * range)).abs() < 1e-12);
+    assert!(touch.value.abs() < 1e-15);
+    let tension = dugdale.pressure(0.5 * range, 0.0, &SCALE).value;
+    assert!((tension + work / range).abs() < 1e-15);
 }
 
 #[test]

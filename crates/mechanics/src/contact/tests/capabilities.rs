@@ -37,6 +37,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
             damping: Damping::default(),
             fluid: None,
             gasket: None,
+            cohesion: None,
         };
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();

@@ -40,6 +40,7 @@ fn error(
         damping,
         fluid: None,
         gasket: None,
+        cohesion: None,
     };
     let mut scene = Scene::new(kind, method, choice, seed);
     let mut random = Random::new(seed + 77);

@@ -16,6 +16,7 @@ mod rigid;
 pub(crate) mod scene;
 mod sliding;
 mod table;
+mod torn;
 
 use super::discretization::{Discretization, Links, Pairing, SurfacePair};
 use super::row::Rows;

@@ -181,6 +181,8 @@ impl<'a> Case<'a> {
             },
             bond: false,
             bond_tangential: None,
+            cohesion: None,
+            duration: 0.0,
             vectors: true,
             shear: number("p"),
             vibrates: false,

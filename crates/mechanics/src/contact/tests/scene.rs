@@ -1,6 +1,7 @@
 //! Two sides with a past: an interface of any method, law and friction over any kind of facets, after one accepted
 //! increment and some way into the next.
 
+use super::super::cohesion::Cohesion;
 use super::super::discretization::projected::Closest;
 use super::super::discretization::{
     Anchored, Discretization, Mortar, NodeNormals, NodeToNode, PointToSegment, SlidingRange,
@@ -96,6 +97,8 @@ pub(crate) struct Choice {
     pub fluid: Option<Fluid>,
     /// The law, where it is a gasket.
     pub gasket: Option<Arc<Gasket>>,
+    /// How a bond breaks.
+    pub cohesion: Option<Cohesion>,
 }
 
 pub(crate) struct Scene {
@@ -397,6 +400,7 @@ impl Scene {
             damping: choice.damping,
             fluid: choice.fluid,
             gasket: choice.gasket,
+            cohesion: choice.cohesion,
             measure: Measure::Area,
             area,
             scale: Scale {

@@ -505,6 +505,7 @@ fn rub(law: Box<dyn ContactLaw>) -> Choice {
         damping: Damping::default(),
         fluid: None,
         gasket: None,
+        cohesion: None,
     }
 }
 
@@ -578,6 +579,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         damping: Damping::default(),
         fluid: None,
         gasket: None,
+        cohesion: None,
     };
     let gasket = || {
         let loading = vec![[0.0, 0.0], [0.01, 0.2], [0.06, 0.5], [0.2, 2.0]];
@@ -592,6 +594,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         &|| rub(Box::new(Uzawa)),
         &|| rub(Box::new(Lagrange)),
         &|| tie(Box::new(Penalty)),
+        &|| super::torn::torn(super::torn::cohesions().swap_remove(2), true),
         &|| tie(Box::new(Uzawa)),
         &|| Choice {
             friction: None,
@@ -658,6 +661,7 @@ fn planes_of_an_increment_are_those_at_its_start() {
             damping: Damping::default(),
             fluid: None,
             gasket: None,
+            cohesion: None,
         };
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);

@@ -161,7 +161,7 @@ pub(super) fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
     worst
 }
 
-fn balance(scene: &mut Scene, method: Method, rubs: bool, bond: bool, name: &str) {
+pub(super) fn balance(scene: &mut Scene, method: Method, rubs: bool, bond: bool, name: &str) {
     let state = scene.state.clone();
     let whole = scene.respond(&state, Order::Residual);
     let (force, moment, size) = scene.resultant(&whole.force);
@@ -222,6 +222,7 @@ fn check(
             damping: Damping::default(),
             fluid: None,
             gasket: (law == GASKET).then(|| Arc::new(gasket())),
+            cohesion: None,
         };
         let multiplier = choice.law.multiplier();
         let rubs = friction.is_some();
@@ -364,6 +365,7 @@ fn multipliers_that_stick_act_as_they_hold() {
                     damping: Damping::default(),
                     fluid: None,
                     gasket: None,
+                    cohesion: None,
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
@@ -406,6 +408,7 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
         damping: Damping::default(),
         fluid: None,
         gasket: None,
+        cohesion: None,
     };
     let kind = Kind::Elements("quad4");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);

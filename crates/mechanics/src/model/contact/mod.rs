@@ -5,6 +5,7 @@ mod joined;
 mod junctions;
 mod open_edges;
 mod probe;
+mod process_zone;
 mod sides;
 mod start;
 mod variants;
@@ -186,6 +187,7 @@ impl Context<'_> {
         let bond = part.tie.map(|tie| start::bonds(&sides, &found, tie, &at));
         let bond = bond.transpose().map_err(surface_error)?;
         let fluid = steps.fluid(&sides, part)?;
+        let (breaks, zone) = self.breaking(&sides, part, measure, [penalty, length])?;
         let summary = ContactSummary {
             name: part.name.clone(),
             enforcement: in_use(&part.enforcement, sides.law.multiplier(), penalty),
@@ -198,10 +200,8 @@ impl Context<'_> {
             nfacet: sides.pair.primary.nfacet(),
             facet_size: length,
             shared: sides.shared,
-            start: StartSummary {
-                open_edges,
-                ..StartSummary::new(&found, &look, part, size)
-            },
+            start: StartSummary::new(&found, &look, part, (size, open_edges)),
+            cohesion: zone,
         };
         let parts = InterfaceParts {
             name: part.name.clone(),
@@ -221,6 +221,7 @@ impl Context<'_> {
             remembers_traction: part.remembers_traction,
             bond,
             bond_tangential: part.tie.and_then(|tie| tie.penalty_tangential),
+            cohesion: breaks,
             measure,
             area: sides.area,
             areas: sides.areas,

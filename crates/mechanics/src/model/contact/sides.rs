@@ -90,7 +90,8 @@ impl Source<'_> {
             Method::Auto if at_nodes => Method::NodeToSegment,
             _ => self.method(part, &pass),
         };
-        let law = law(part, method.takes_multipliers() || at_nodes)?;
+        let exact = (method.takes_multipliers() || at_nodes) && !part.breaks();
+        let law = law(part, exact)?;
         pass.admits(law.multiplier())?;
         let rows = pass.rows(&method, law.multiplier())?;
         Ok(Sides {
@@ -118,7 +119,7 @@ impl Source<'_> {
     /// Against a rigid surface without facets, nodes take multipliers where they can follow, see [`rigid`]. Nodes that both
     /// sides have could follow no multiplier.
     fn method(&self, part: &ContactPart, pass: &Pass<'_>) -> Method {
-        let penalty = matches!(part.enforcement, Enforcement::Penalty(_));
+        let penalty = matches!(part.enforcement, Enforcement::Penalty(_)) || part.breaks();
         let open = !penalty && !part.enforcement.is_curve();
         let exact = open && !matches!(part.enforcement, Enforcement::Auto);
         match (&part.method, &part.primary) {
@@ -134,7 +135,7 @@ impl Source<'_> {
                     ..Default::default()
                 })
             }
-            (Method::Auto, _) if self.shares_unevenly(part) && !exact => {
+            (Method::Auto, _) if (self.shares_unevenly(part) || part.breaks()) && !exact => {
                 Method::GaussPoint(PointRule {
                     kind: PointKind::Gauss,
                     points: None,
@@ -189,6 +190,13 @@ fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Arc<dyn ContactLaw
         Enforcement::Uzawa(_) => Arc::new(Uzawa),
         Enforcement::AugmentedNewton(_) => Arc::new(AugmentedNewton),
     };
+    if part.breaks() && law.multiplier() != Multiplier::None {
+        return Err(ModelError::Unsuited {
+            contact: part.name.clone(),
+            what: "joints that break act by a stiffness, not by multipliers",
+            remedy: "enforcement = { penalty = \"auto\" }",
+        });
+    }
     if part.tie.is_some() && part.enforcement.is_curve() && law.multiplier() == Multiplier::None {
         return Err(ModelError::Unsuited {
             contact: part.name.clone(),

@@ -6,7 +6,7 @@ use super::{ContactPart, ModelError, Sides, Source};
 use crate::contact::discretization::{Anchored, Pair, Pairing, REACH};
 use crate::contact::{Allowance, Bend, Shift};
 use crate::model::label::label;
-use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart, Treatment};
+use crate::model::{Interference, Method, OpenEdges, StartSummary, TieOffset, TiePart, Treatment};
 use signorini_geometry::mesh::{Mesh, NodeId, boundary};
 use signorini_geometry::surface::{Facets, Outline, Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -20,7 +20,12 @@ const SMALL: f64 = 1e-6;
 
 impl StartSummary {
     /// Gaps and overlaps at the start: by nodes of both sides where they are looked at, by rows elsewhere.
-    pub(super) fn new(found: &Pairing, look: &Look, part: &ContactPart, size: f64) -> Self {
+    pub(super) fn new(
+        found: &Pairing,
+        look: &Look,
+        part: &ContactPart,
+        (size, open_edges): (f64, Option<OpenEdges>),
+    ) -> Self {
         let near = found.pairs.iter().flatten().count();
         let left = look.conforms.map_or(0.0, |bent| bent.bent);
         let nothing = left.max(NOTHING * size);
@@ -31,6 +36,7 @@ impl StartSummary {
             near,
             bent: look.conforms,
             treatment: part.treatment(),
+            open_edges,
             ..Self::default()
         };
         if let Some(clearance) = part.start.clearance.filter(|_| near > 0) {

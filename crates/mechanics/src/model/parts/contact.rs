@@ -1,5 +1,8 @@
 //! Contacts, as plain data.
 
+use crate::contact::cohesion::{
+    Bilinear, Cohesion, CohesionError, CohesiveLaw, Exponential, Initiation, Mixity,
+};
 use crate::contact::discretization::{SlidingRange, mortar};
 use crate::contact::friction::{Coulomb, FrictionLaw};
 use crate::contact::law::{ContactLaw, Damping, Gasket};
@@ -191,6 +194,75 @@ pub struct TiePart {
     pub within: Option<f64>,
     /// Traction per way apart within the tangent plane, of joints by a penalty at points; `None`: as along the normal.
     pub penalty_tangential: Option<f64>,
+    /// How the joint breaks; `None`: it does not.
+    pub cohesion: Option<CohesionPart>,
+}
+
+impl TiePart {
+    /// Whether it has what a joint that breaks has not: tractions at the start, or a stiffness of its own.
+    #[must_use]
+    pub fn pulls(&self) -> bool {
+        self.offset == TieOffset::Pull || self.penalty_tangential.is_some()
+    }
+}
+
+/// How a joint breaks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CohesionPart {
+    /// The largest tractions along the normal and across it.
+    pub strength: [f64; 2],
+    /// The energies per area of opening and of shear.
+    pub toughness: [f64; 2],
+    /// How it loses its stiffness.
+    pub softening: SofteningPart,
+    /// The time by which damage is delayed; 0: it is not.
+    pub viscosity: f64,
+}
+
+/// How a joint loses its stiffness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SofteningPart {
+    /// Linearly.
+    Bilinear {
+        /// The toughness between the pure modes.
+        mixity: Mixity,
+        /// Where damage begins between them.
+        initiation: Initiation,
+        /// Tractions per opening and per shear of what is undamaged; `None`: chosen.
+        stiffness: Option<[f64; 2]>,
+    },
+    /// Exponentially, from the first opening on.
+    Exponential,
+}
+
+impl CohesionPart {
+    /// How many times δ₀ the last opening is at least, where the stiffness is chosen.
+    const SOFTENS: f64 = 10.0;
+
+    /// The law, with a stiffness that is at least that of contact where it is chosen.
+    ///
+    /// # Errors
+    /// Values that make no law.
+    pub fn law(&self, penalty: f64) -> Result<Cohesion, CohesionError> {
+        let (strength, toughness) = (self.strength, self.toughness);
+        let law: Arc<dyn CohesiveLaw> = match self.softening {
+            SofteningPart::Exponential => Arc::new(Exponential::new(strength, toughness)?),
+            SofteningPart::Bilinear {
+                mixity,
+                initiation,
+                stiffness,
+            } => {
+                let enough = Bilinear::stiff_enough(strength, toughness, Self::SOFTENS);
+                let stiffness = stiffness.unwrap_or([penalty.max(enough); 2]);
+                let law = Bilinear::new(stiffness, strength, toughness, mixity, initiation)?;
+                Arc::new(law)
+            }
+        };
+        Ok(Cohesion {
+            law,
+            viscosity: self.viscosity,
+        })
+    }
 }
 
 /// What is done about gaps and overlaps at the start.
@@ -330,6 +402,12 @@ impl Enforcement {
 }
 
 impl ContactPart {
+    /// Whether it joins the sides until the joint breaks.
+    #[must_use]
+    pub fn breaks(&self) -> bool {
+        self.tie.is_some_and(|tie| tie.cohesion.is_some())
+    }
+
     /// A contact with nothing but defaults.
     #[must_use]
     pub fn new(name: impl Into<String>, secondary: SidePart, primary: PrimaryPart) -> Self {

@@ -228,6 +228,7 @@ impl Opened {
             contacts: BTreeMap::new(),
             drifts: Vec::new(),
             leaks: Leaks::default(),
+            torn: Vec::new(),
             closure: self.closure,
             idle: self.idle,
             work_stabilization: 0.0,

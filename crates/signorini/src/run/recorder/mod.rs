@@ -125,6 +125,8 @@ pub struct Recorder<'l> {
     pub drifts: Vec<(String, f64, u32)>,
     /// Where fluids have come through contacts.
     pub leaks: Leaks,
+    /// The contacts whose joints break with viscosity: the energies that damage and viscosity have taken.
+    pub torn: Vec<(String, [f64; 2])>,
     /// Which contacts have closed.
     pub closure: Closure,
     /// Which contacts act on nothing that moves somewhere.

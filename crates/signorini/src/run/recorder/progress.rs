@@ -225,6 +225,9 @@ impl Recorder<'_> {
             drifts.filter_map(|c| c.drift.map(|(ratio, node)| (c.name.clone(), ratio, node)));
         self.drifts = drifts.collect();
         self.leaks.look(frame);
+        let torn = frame.contacts.iter().filter(|c| c.work_viscous != 0.0);
+        let torn = torn.map(|c| (c.name.clone(), [c.work_damage, c.work_viscous]));
+        self.torn = torn.collect();
         self.work_stabilization = frame.work_stabilization;
         self.work_external = frame.work_external;
         self.audit.look(frame);
