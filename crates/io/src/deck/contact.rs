@@ -317,8 +317,16 @@ impl Translation<'_> {
                 contact.per = Some(Per::Area);
             }
         }
+        if let Some(cohesive) = to.bond.cohesive() {
+            contact.tied = Some(Tied::default());
+            contact.cohesive = Some(cohesive);
+            if contact.enforcement.is_curve() {
+                contact.enforcement = Enforcement::Auto;
+            }
+        }
         // tied sides do not slide
-        let rubs = to.friction.filter(|_| contact.tied.is_none());
+        let slides = contact.tied.is_none() || contact.cohesive.is_some();
+        let rubs = to.friction.filter(|_| slides);
         contact.friction = rubs.and_then(|given| self.rubbing(given));
     }
 
@@ -635,6 +643,12 @@ impl Translation<'_> {
             let joins = matches!(law, Law::Tied(_)) && before.tied.is_none();
             if joins && !self.case.steps.is_empty() {
                 let text = "*CHANGE SURFACE BEHAVIOR to TIED in a later step is not supported";
+                self.error(&codes::NOT_BUILT, text, &to.place, "");
+                return;
+            }
+            if before.cohesive.is_some() {
+                let text =
+                    "*CHANGE SURFACE BEHAVIOR of surfaces with *COHESIVE BEHAVIOR is not supported";
                 self.error(&codes::NOT_BUILT, text, &to.place, "");
                 return;
             }

@@ -143,7 +143,11 @@ fn property(card: &Statement) -> Option<Form> {
     let terms = card.peek("N").map_or(Some(1), |n| n.trim().parse().ok());
     let terms: Option<usize> = terms.filter(|terms| (1..=6).contains(terms));
     Some(match card.keyword.as_str() {
+        "COHESIVEBEHAVIOR" => each(AT_MOST_ONE, (2, 3), "Knn, Kss, Ktt"),
         "CONTACTDAMPING" => each(ONE, (1, 1), "pressure over velocity"),
+        "DAMAGEINITIATION" => each(ONE, (2, 3), "strengths of opening and of both shears"),
+        "DAMAGEEVOLUTION" => each(ONE, (1, 3), "energies of opening and of both shears"),
+        "DAMAGESTABILIZATION" => each(ONE, (1, 1), "viscosity"),
         "DENSITY" => each(SOME, (1, 2), "density, temperature"),
         "DEFORMATIONPLASTICITY" => each(SOME, (5, 6), "E, nu, s0, n, alpha, temperature"),
         "ELASTIC" if kind.is_empty() || "ISOTROPIC".starts_with(&kind) => {

@@ -186,8 +186,12 @@ impl Translation<'_> {
         else {
             return;
         };
-        if matches!(interaction.law, Law::Tied(_)) {
-            let text = "TIED in *CONTACT PROPERTY ASSIGNMENT is not supported";
+        let joins = match interaction.law {
+            Law::Tied(_) => Some("TIED"),
+            _ => interaction.bond.cohesive().map(|_| "COHESIVE BEHAVIOR"),
+        };
+        if let Some(joins) = joins {
+            let text = format!("{joins} in *CONTACT PROPERTY ASSIGNMENT is not supported");
             self.error(
                 &codes::NOT_BUILT,
                 text,

@@ -1,5 +1,6 @@
 //! What happens between two surfaces: *SURFACE INTERACTION and what stands in it.
 
+use super::cohesion::Bond;
 use super::translation::Translation;
 use crate::diagnostic::codes;
 use crate::readers::inp::{Statement, compared};
@@ -13,6 +14,8 @@ pub(super) struct Interaction {
     pub friction: Option<[f64; 2]>,
     /// Pressure and shear over velocity.
     pub damping: [f64; 2],
+    /// How the surfaces are joined until the joint breaks.
+    pub bond: Bond,
 }
 
 /// What pressures and overclosures are.
@@ -45,7 +48,14 @@ impl Translation<'_> {
                         all.entry(name.clone()).or_default();
                     }
                 }
-                "SURFACEBEHAVIOR" | "FRICTION" | "CONTACTDAMPING" => {
+                "MATERIAL" => open = None,
+                "SURFACEBEHAVIOR"
+                | "FRICTION"
+                | "CONTACTDAMPING"
+                | "COHESIVEBEHAVIOR"
+                | "DAMAGEINITIATION"
+                | "DAMAGEEVOLUTION"
+                | "DAMAGESTABILIZATION" => {
                     let Some(one) = open.as_ref().and_then(|name| all.get_mut(name)) else {
                         let text = format!("*{} stands in no *SURFACE INTERACTION", card.title);
                         self.error(&codes::CONTRADICTION, text, &card.place, "");
@@ -54,12 +64,16 @@ impl Translation<'_> {
                     match card.keyword.as_str() {
                         "FRICTION" => one.friction = Some(self.friction(card)),
                         "CONTACTDAMPING" => one.damping = self.contact_damping(card),
-                        _ => one.law = self.law(card),
+                        "SURFACEBEHAVIOR" => one.law = self.law(card),
+                        _ => self.bond(card, &mut one.bond),
                     }
                 }
                 "STEP" => break,
                 _ => {}
             }
+        }
+        for one in all.values() {
+            self.whole_bond(&one.bond);
         }
         all
     }

@@ -67,6 +67,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "CLOAD",
         "forces at nodes, moments at rigid bodies; AMPLITUDE, TIME DELAY, OP",
     ),
+    read(
+        "COHESIVE BEHAVIOR",
+        "Knn, Kss, Ktt, with DAMAGE INITIATION and EVOLUTION; ELIGIBILITY",
+    ),
     ignored("CONDUCTIVITY", "only of heat: temperatures are given"),
     read(
         "CONTACT",
@@ -109,6 +113,12 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("CREEP", "creep is not built"),
     refused("CYCLIC HARDENING", "combined hardening is not built"),
     read("CYCLIC SYMMETRY MODEL", "N, TIE, of matching sides"),
+    read(
+        "DAMAGE EVOLUTION",
+        "TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER LAW; of surfaces",
+    ),
+    read("DAMAGE INITIATION", "CRITERION=QUADS; of surfaces"),
+    read("DAMAGE STABILIZATION", "of surfaces"),
     read("DAMPING", "ALPHA; of motion"),
     read("DEFORMATION PLASTICITY", "at one temperature"),
     read("DENSITY", "constant"),

@@ -28,6 +28,7 @@
 
 mod activity;
 mod axes;
+mod cohesion;
 mod compat;
 mod constraint;
 mod contact;

@@ -1,3 +1,4 @@
+mod cohesion;
 mod constraints;
 mod contact;
 mod frequency;
