@@ -66,9 +66,12 @@ fn moments(case: Case, end: f64, increments: usize) -> (Vec<f64>, Run) {
 }
 
 fn joint(toughness: [f64; 2], more: &str) -> String {
-    format!(
-        "cohesive = {{ strength = [20.0, 20.0], toughness = {toughness:?}, stiffness = 1e5{more} }}"
-    )
+    let more = if more.is_empty() {
+        "stiffness = 1e5"
+    } else {
+        more
+    };
+    format!("cohesive = {{ strength = [20.0, 20.0], toughness = {toughness:?}, {more} }}")
 }
 
 /// The plateau of a ratio of moments, over the exact one.
@@ -112,13 +115,7 @@ fn arms_that_bend_alike_slide_at_the_toughness_of_shear() {
 fn uneven_moments_open_at_the_toughness_that_both_modes_have() {
     let found = plateau(0.5, [0.5, 0.5], 0.5, 0.08, "");
     assert!((found - 1.0).abs() < 0.02, "{found}");
-    let found = plateau(
-        -1.0,
-        [0.5, 0.5],
-        0.5,
-        0.075,
-        ", softening = \"exponential\"",
-    );
+    let found = plateau(-1.0, [0.5, 0.5], 0.5, 0.075, "softening = \"exponential\"");
     assert!((found - 1.0).abs() < 0.02, "{found}");
     // the local mix of modes is not that of beams: 0.8214 of an independent program
     let found = plateau(0.5, [0.5, 1.0], 0.8214, 0.11, "");
@@ -311,6 +308,57 @@ fn what_is_broken_touches_and_rubs() {
             spent < last.work_external * 1.02,
             "{method}: {spent} {}",
             last.work_external
+        );
+    }
+}
+
+#[test]
+fn a_joint_that_has_turned_opens_along_its_own_normal() {
+    for method in ["gauss-point", "node-to-segment", "mortar"] {
+        let mut scene = Scene::default();
+        for (name, bottom) in [("lower", -1.0), ("upper", 0.0)] {
+            scene.straight(name, "quad4", [1, 1, 0], |at| {
+                Vec3::new(at[0] as f64, bottom + at[1] as f64, 0.0)
+            });
+            for (part, y) in [("face", 0.0), ("end", 2.0 * bottom + 1.0)] {
+                let faces = scene.facets_where(name, |x| (x[1] - y).abs() < 1e-9);
+                let faces: Vec<(usize, &str)> =
+                    faces.iter().map(|(c, s)| (*c, s.as_str())).collect();
+                scene.faces(&format!("{name}_{part}"), &faces);
+            }
+        }
+        let coupled = |name: &str| {
+            format!(
+                "[reference.{name}_hand]\nat = [0.0, 0.0]\n\
+                 [[constraint]]\nkind = \"kinematic\"\non = \"{name}_end\"\nreference = \"{name}_hand\"\n"
+            )
+        };
+        let text = format!(
+            "[model]\nspace = \"plane-strain\"\n{}{}\
+             [material.m]\nmodel = \"neo-hookean\"\nE = 70000.0\nnu = 0.0\n\
+             [[body]]\ngroup = [\"lower\", \"upper\"]\nmaterial = \"m\"\n\
+             [[contact]]\nname = \"joint\"\nsecondary = \"upper_face\"\nprimary = \"lower_face\"\n\
+             method = \"{method}\"\ntied = true\n\
+             cohesive = {{ strength = [20.0, 30.0], toughness = [0.5, 0.8] }}\n\
+             [[step]]\nname = \"turn\"\ngeometry = \"nonlinear\"\nincrements = 6\n\
+             [[step.move]]\non = \"lower_hand\"\nux = 0.0\nuy = 0.0\nrz = 1.5\n\
+             [[step.move]]\non = \"upper_hand\"\nux = 0.0\nuy = 0.0\nrz = 1.5\n\
+             [[step]]\nname = \"pull\"\ngeometry = \"nonlinear\"\nincrements = 30\n\
+             [[step.move]]\non = \"upper_hand\"\nux = {:?}\nuy = {:?}\n",
+            coupled("lower"),
+            coupled("upper"),
+            -0.1 * 1.5_f64.sin(),
+            0.1 * 1.5_f64.cos(),
+        );
+        let run = scene.case_of(&text).run();
+        let turned = run.frames[5].contacts[0].work_damage;
+        let last = &run.frames.last().unwrap().contacts[0];
+        println!("{method}: {turned:e} {}", last.work_damage);
+        assert!(turned < 1e-12, "{method}: {turned}");
+        assert!(
+            (last.work_damage / 0.5 - 1.0).abs() < 1e-3,
+            "{method}: {}",
+            last.work_damage
         );
     }
 }
