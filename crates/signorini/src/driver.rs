@@ -8,7 +8,7 @@ use crate::run::{Saved, bad_checkpoint, begin, cannot_resume, failure_message, s
 use crate::setup::Model;
 use signorini_io::checkpoint::{self, Stamp};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
-use signorini_mechanics::solve::{Event, Flow, Outcome, Stepper};
+use signorini_mechanics::solve::{Cycle, Event, Flow, Outcome, Stepper};
 use signorini_mechanics::system::{Archive, Frame};
 
 /// A model with the state it is in.
@@ -70,7 +70,7 @@ impl Driver {
     /// An undeformed state that cannot be evaluated: exit code 4.
     pub fn new(mut model: Model) -> Result<Self, Diagnostics> {
         let start = begin(&mut model)?;
-        let stepper = Stepper::new(&model.system, model.settings);
+        let stepper = Stepper::new(&model.system, model.settings).with_cycles(each(&model.cycles));
         Ok(Self {
             watch: Watch::new(&model, &stepper),
             stepper,
@@ -229,10 +229,14 @@ impl Driver {
 
     fn take(&mut self, archive: &Archive) -> Result<(), Diagnostics> {
         let Model {
-            system, settings, ..
+            system,
+            settings,
+            cycles,
+            ..
         } = &mut self.model;
         let stepper = Stepper::resumed(system, *settings, archive);
-        self.stepper = stepper.map_err(cannot_resume)?;
+        let stepper = stepper.map_err(cannot_resume)?;
+        self.stepper = stepper.with_cycles(each(cycles));
         let frame = self.stepper.report(system);
         self.frame = frame.map_err(cannot_resume)?;
         self.watch = Watch::new(&self.model, &self.stepper);
@@ -240,4 +244,12 @@ impl Driver {
         self.frame.step = step.map_or_else(String::new, |step| step.name.clone());
         Ok(())
     }
+}
+/// Cycles of which each is solved: who stops between increments sees no one that stands for many.
+fn each(cycles: &[Cycle]) -> Vec<Cycle> {
+    let solved = |cycle: &Cycle| Cycle {
+        jump: None,
+        ..*cycle
+    };
+    cycles.iter().map(solved).collect()
 }

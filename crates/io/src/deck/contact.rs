@@ -712,6 +712,7 @@ impl Translation<'_> {
                 active: None,
                 friction: None,
                 fluid: None,
+                slip: None,
                 place: place.clone(),
             });
             step.contacts.len() - 1

@@ -35,6 +35,8 @@ pub(super) struct Laws<'a> {
     /// Whether tangents are those of small vibrations: what slips moves freely along the other side, and what sticks does not
     /// feel a pressure that changes.
     pub vibrates: bool,
+    /// Whether rows know how far they slide without friction, too: for wear.
+    pub walks: bool,
     /// What the laws answer for the row at hand, where they were asked for many rows at once.
     pub answer: Option<&'a Answer>,
 }
@@ -58,7 +60,7 @@ impl Answer {
                 gap.from.map(f64::to_bits),
             )
         };
-        let is_same = bits(self.at) == bits((gap, lambda));
+        let is_same = bits(self.at) == bits((gap, lambda)) && self.at.0.worn == gap.worn;
         is_same.then_some(self.pressure)
     }
 
@@ -193,7 +195,7 @@ impl Derivatives {
 impl<'a> Laws<'a> {
     /// Whether rows have a tangential part.
     pub fn slips(&self) -> bool {
-        self.bond || self.friction().is_some()
+        self.bond || self.walks || self.friction().is_some()
     }
 
     fn friction(&self) -> Option<&'a dyn FrictionLaw> {
@@ -219,7 +221,7 @@ impl<'a> Laws<'a> {
     fn pressed(&self, gap: SeenGap, scalar: f64) -> Eval {
         let known = self.answer.and_then(|a| a.pressure_at(gap, scalar));
         known.unwrap_or_else(|| {
-            let at_end = self.law.pressure(gap.now, scalar, self.scale);
+            let at_end = self.law_at(gap, scalar);
             self.in_motion(gap, at_end)
         })
     }
@@ -253,7 +255,7 @@ impl<'a> Laws<'a> {
     /// The pressure that friction is limited by.
     pub fn tried(&self, gap: SeenGap, scalar: f64) -> Eval {
         if self.law.multiplier().is_unknown() {
-            self.law.trial(gap.now, scalar, self.scale)
+            self.law_tried(gap, scalar)
         } else {
             self.pressed(gap, scalar)
         }
@@ -524,7 +526,7 @@ impl<'a> Laws<'a> {
             *f -= scaled * b; // (E1)
         }
         let unknown = self.law.multiplier().is_unknown();
-        let row_of_lambda = self.law.complementarity(row.gap, lambda, self.scale);
+        let row_of_lambda = self.complements(row.seen(), lambda);
         if unknown {
             target.force[n] += measure * row_of_lambda.value;
         }

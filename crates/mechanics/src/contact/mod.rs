@@ -88,9 +88,10 @@ mod row;
 mod tear;
 #[cfg(test)]
 pub(crate) mod tests;
+mod worn;
 
 pub use interface::{
     Allowance, Areas, Bend, ContactHeat, ContactPhase, Critical, Fluid, FrictionHeat, Interface,
-    InterfaceParts, Measure, Shift, closest_points, inherit, nmultiplier,
+    InterfaceParts, Measure, Shift, WearParts, closest_points, inherit, nmultiplier,
 };
 pub use row::{Participant, Row, RowOrder, Rows, Wanted};

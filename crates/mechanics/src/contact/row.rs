@@ -50,6 +50,8 @@ pub struct Row {
     pub from: Option<f64>,
     /// What damps the motion along the normal.
     pub viscous: Viscous,
+    /// What wear puts in series with the law.
+    pub worn: Option<Series>,
     /// Unit normal out of the primary side.
     pub normal: Vec3,
     /// The part of its measure that it acts on.
@@ -73,6 +75,23 @@ pub struct SeenGap {
     pub from: Option<f64>,
     /// What damps its motion.
     pub viscous: Viscous,
+    /// What wear puts in series with the law.
+    pub worn: Option<Series>,
+}
+
+/// What an increment wears off both sides of a row: a compliance in series with its law.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Depth per pressure and way.
+    pub coefficient: f64,
+    /// The way, with what sticking yields.
+    pub way: f64,
+    /// Whether it may have such a part.
+    pub eases: bool,
+    /// The length of all slip before, which limits of friction depend on.
+    pub path: f64,
+    /// The limit of friction, where it is held.
+    pub held: Option<f64>,
 }
 
 /// What resists the velocity of a gap, and of a slip, where the law acts.
@@ -96,6 +115,7 @@ impl Row {
             now: self.gap,
             from: self.from,
             viscous: self.viscous,
+            worn: self.worn,
         }
     }
 
@@ -286,6 +306,7 @@ impl Rows {
         row.gap = 0.0;
         row.from = None;
         row.viscous = Viscous::default();
+        row.worn = None;
         row.normal = Vec3::ZERO;
         row.coverage = 1.0;
         row.sliding.free = false;

@@ -52,7 +52,7 @@ pub use parts::{
     CohesionPart, ConstraintKind, ConstraintPart, ContactChange, ContactPart, Enforcement,
     FeaturesPart, FluidPart, FrictionPart, HeatPart, Interference, LoadPart, MassMatrix, MassPart,
     Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SofteningPart,
-    SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
+    SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown, WearPart,
 };
 pub use summary::{
     BentSummary, CohesionSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace,

@@ -3,7 +3,7 @@
 use super::newton::Failure;
 use super::step::{Prescription, Step};
 use super::stepping::{RunError, Stepper};
-use crate::system::{Choices, Dof, Layout, Phase, System};
+use crate::system::{Choices, Dof, Layout, Phase, StepContext, System};
 
 impl Stepper {
     /// How a run ends whose step cannot begin.
@@ -32,7 +32,10 @@ impl Stepper {
         if progress.increment == 0 {
             progress.origin = step.prescriptions.iter().map(value).collect();
         }
-        let context = step.context(progress.step, progress.step_start);
+        let context = StepContext {
+            cycles: progress.turns.stands_for.max(1.0),
+            ..step.context(progress.step, progress.step_start)
+        };
         self.state.is_small = !step.nonlinear;
         let phase = Phase::of_step(context);
         for term in &mut system.terms {

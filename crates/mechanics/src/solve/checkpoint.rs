@@ -1,5 +1,6 @@
 //! What a run stores of itself, to go on from there.
 
+use super::cycles::Turns;
 use super::local_error::Record;
 use super::newton::ForceScale;
 use super::stepping::{Progress, Stepper};
@@ -44,6 +45,10 @@ impl Stepper {
         let experience = self.newton.equations.experience();
         out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
+        if p.turns.stands_for > 0.0 {
+            out.put("progress.cycles", &[p.turns.done, p.turns.stands_for]);
+            out.put("progress.worn", &p.turns.last);
+        }
         if let Some(explicit) = &self.explicit {
             explicit.kept().save(out);
         }
@@ -85,6 +90,14 @@ impl Stepper {
         if from.length("progress.record").is_ok() {
             from.get("progress.record", &mut record)?;
         }
+        let mut turns = Turns::default();
+        if let Ok(count) = from.length("progress.worn") {
+            let mut cycles = [0.0; 2];
+            from.get("progress.cycles", &mut cycles)?;
+            [turns.done, turns.stands_for] = cycles;
+            turns.last.resize(count, 0.0);
+            from.get("progress.worn", &mut turns.last)?;
+        }
         self.kept = Kept::load(from)?;
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
@@ -106,6 +119,7 @@ impl Stepper {
             curvature: curvature.first().copied(),
             jumped: jumped != 0.0,
             work,
+            turns,
             record: Record {
                 largest: record[0],
                 calm: record[1] as usize,

@@ -35,6 +35,7 @@
 
 mod begin;
 mod checkpoint;
+mod cycles;
 mod economy;
 mod equations;
 mod event;
@@ -53,6 +54,7 @@ mod tests;
 mod vibration;
 mod work;
 
+pub use cycles::{Cycle, Jump};
 pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};

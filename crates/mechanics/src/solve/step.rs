@@ -113,6 +113,7 @@ impl Step {
             },
             vibrates,
             physics: self.physics,
+            cycles: 1.0,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Steps and increments: how time passes.
 
+use super::cycles::{Cycle, Turns};
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::local_error::{Record, look, next};
@@ -110,6 +111,8 @@ pub struct Stepper {
     /// The present step, where it is explicit; and what a stored run knows of it.
     pub(super) explicit: Option<Box<Explicit>>,
     pub(super) kept: Option<Kept>,
+    /// Steps that come again.
+    pub(super) cycles: Vec<Cycle>,
 }
 
 /// An increment that was accepted.
@@ -145,6 +148,8 @@ pub(super) struct Progress {
     pub work: ExternalWork,
     /// What the control of time knows of increments so far.
     pub record: Record,
+    /// Where it is in its cycles.
+    pub turns: Turns,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -187,6 +192,7 @@ impl Stepper {
             pause: None,
             explicit: None,
             kept: None,
+            cycles: Vec::new(),
         }
     }
 
@@ -224,10 +230,11 @@ impl Stepper {
         settings: StepperSettings,
         from: &Archive,
     ) -> Result<Self, ArchiveError> {
+        let cycles = self.cycles;
         Self::going_on(system, from, |system| {
             let equations = Equations::new(choose(settings.linear));
             let newton = self.newton.renewed(settings.newton, system, equations);
-            Self::with(system, settings, newton)
+            Self::with(system, settings, newton).with_cycles(cycles)
         })
     }
 
@@ -266,30 +273,52 @@ impl Stepper {
     ) -> Result<Outcome, RunError> {
         self.newton.stopping = false;
         while let Some(step) = steps.get(self.progress.step) {
-            let number = self.progress.step;
-            let event = Event::Step {
-                step: number,
-                name: &step.name,
-            };
-            if observer.notice(&event) == Flow::Stop {
-                return Ok(Outcome::Stopped);
-            }
-            self.begin_step(system, step)
-                .map_err(|cause| self.not_begun(step, cause))?;
-            self.notice_explicit(observer);
-            if let Some(wanted) = &step.vibration {
-                let outcome = self.vibrate(system, step, wanted, observer)?;
-                self.go_to(number + 1, step, steps);
-                if outcome == Outcome::Stopped {
-                    return Ok(outcome);
+            let outcome = match self.due_cycle() {
+                Some(cycle) => self.turn(system, steps, &cycle, observer)?,
+                None => {
+                    let number = self.progress.step;
+                    let outcome = self.one_step(system, steps, step, observer)?;
+                    if outcome == Outcome::Finished {
+                        self.turn_round(number);
+                    }
+                    outcome
                 }
-                continue;
+            };
+            if outcome == Outcome::Stopped {
+                return Ok(outcome);
             }
-            if self.run_step(system, step, observer)? == Outcome::Stopped {
-                return Ok(Outcome::Stopped);
-            }
-            self.go_to(number + 1, step, steps);
         }
+        Ok(Outcome::Finished)
+    }
+
+    /// Runs the present step, or what is left of it, and goes on to the next.
+    pub(super) fn one_step(
+        &mut self,
+        system: &mut System,
+        steps: &[Step],
+        step: &Step,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, RunError> {
+        let number = self.progress.step;
+        let event = Event::Step {
+            step: number,
+            name: &step.name,
+        };
+        if observer.notice(&event) == Flow::Stop {
+            return Ok(Outcome::Stopped);
+        }
+        self.begin_step(system, step)
+            .map_err(|cause| self.not_begun(step, cause))?;
+        self.notice_explicit(observer);
+        if let Some(wanted) = &step.vibration {
+            let outcome = self.vibrate(system, step, wanted, observer)?;
+            self.go_to(number + 1, step, steps);
+            return Ok(outcome);
+        }
+        if self.run_step(system, step, observer)? == Outcome::Stopped {
+            return Ok(Outcome::Stopped);
+        }
+        self.go_to(number + 1, step, steps);
         Ok(Outcome::Finished)
     }
 
@@ -299,6 +328,7 @@ impl Stepper {
             step: number,
             step_start: self.progress.step_start + done.duration,
             work: std::mem::take(&mut self.progress.work),
+            turns: std::mem::take(&mut self.progress.turns),
             record: Record {
                 calm: 0,
                 ..self.progress.record
@@ -734,6 +764,7 @@ impl Stepper {
         let (prescribed, assembly) = (&self.newton.prescribed, &self.newton.assembly);
         let mut frame = system.report(&self.state, prescribed, assembly)?;
         frame.step_number = self.progress.step;
+        frame.cycles = self.progress.turns.done + self.progress.turns.stands_for;
         frame.work_external = self.progress.work.total;
         if let Some(energies) = &mut frame.energies {
             energies.external = self.progress.work.total;

@@ -8,6 +8,7 @@
 //! | [`Elementwise`] | solids: assembly without conflicts |
 //! | [`Stored`] | whatever has a history |
 //! | [`Viscous`] | viscous forces |
+//! | [`Wearing`] | material that it takes off |
 //! | [`Sampled`] | solids, trusses: values at integration points |
 //! | [`Audited`] | contact |
 //! | [`Impulsive`] | contact: explicit steps |
@@ -41,6 +42,14 @@ pub struct Capabilities<'a> {
     pub impulsive: Option<&'a dyn Impulsive>,
     /// Has the mass of all bodies.
     pub inertial: Option<&'a dyn Inertial>,
+    /// Is a contact whose sides wear.
+    pub wearing: Option<&'a dyn Wearing>,
+}
+
+/// A term that takes material off.
+pub trait Wearing {
+    /// Adds the depths of all its points at the accepted state.
+    fn depths(&self, out: &mut Vec<f64>);
 }
 
 /// A term that changes its pattern, or what it keeps frozen, while an iteration goes on.

@@ -240,6 +240,7 @@ fn specimens() -> Vec<Specimen> {
         fluid: None,
         gasket: None,
         cohesion: None,
+        wear: None,
     };
     let mut all = vec![
         solid("elastic solid", elastic),

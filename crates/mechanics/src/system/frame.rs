@@ -176,6 +176,23 @@ pub struct ContactFrame {
     pub drift: Option<(f64, u32)>,
     /// Rows that touch and whose multipliers act on nothing that moves.
     pub idle: IdleRows,
+    /// What its sides have lost, where they wear.
+    pub wear: Option<Wear>,
+}
+
+/// What the sides of a contact have lost by wear.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Wear {
+    /// Depth at each node of the secondary side, the mean over the points around it.
+    pub depth: Vec<f64>,
+    /// Depth at nodes of the primary side; empty where that does not wear.
+    pub opposite: Vec<(u32, f64)>,
+    /// Volume of each side, the secondary one first.
+    pub volume: [f64; 2],
+    /// The largest depth at a point of either side, and a node there.
+    pub deepest: f64,
+    /// See `deepest`.
+    pub node: Option<u32>,
 }
 
 /// What a fluid between the sides of a contact does.
@@ -316,6 +333,8 @@ pub struct NodalValues {
 pub struct Frame {
     /// Total time.
     pub time: f64,
+    /// Cycles that are behind, with all that the present one stands for; 0 outside of cycles.
+    pub cycles: f64,
     /// Name of the step.
     pub step: String,
     /// Number of the step, from 0.
@@ -339,6 +358,8 @@ pub struct Frame {
     pub stress: Vec<Sym3>,
     /// Strain at each node, averaged likewise: linearized at small strain, logarithmic `½ ln(F Fᵀ)` at finite strain.
     pub strain: Vec<Sym3>,
+    /// Depth worn off at each node, of either side of contacts; empty where none wears.
+    pub worn_depth: Vec<f64>,
     /// Equivalent plastic strain at each node, averaged likewise; empty where no material has one.
     pub plastic_strain: Vec<f64>,
     /// How much went into each nodal mean; 0 at nodes without a solid.

@@ -81,13 +81,13 @@ pub use assembly::Assembly;
 pub use audited::{Check, ContactAudit, Measured};
 pub use capabilities::{
     Adaptive, Aid, Audited, Capabilities, Choices, ContactNumbering, Elementwise, Inertial,
-    InitialStiffness, Sampled, Stored, Verdict, Viscous,
+    InitialStiffness, Sampled, Stored, Verdict, Viscous, Wearing,
 };
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
     ContactFrame, ContactSample, Energies, FluidFrame, Footprint, Frame, FreeMotion, IdleRows,
-    NodalValues, ReportedAs, Resultant, RigidFrame, SpinFrame, Status,
+    NodalValues, ReportedAs, Resultant, RigidFrame, SpinFrame, Status, Wear,
 };
 pub use idealisation::{Idealisation, profile_at};
 pub use impulsive::{Acts, Impulsive, NearRow, Rubbing};

@@ -74,6 +74,8 @@ pub struct StepContext {
     pub vibrates: bool,
     /// What is unknown in it.
     pub physics: Physics,
+    /// For how many cycles of wear it stands.
+    pub cycles: f64,
 }
 
 impl StepContext {
@@ -101,6 +103,7 @@ impl Default for StepContext {
             scheme: None,
             vibrates: false,
             physics: Physics::default(),
+            cycles: 1.0,
         }
     }
 }

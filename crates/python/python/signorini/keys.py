@@ -635,6 +635,32 @@ class ContactTied(Table):
     )
 
 
+class ContactWear(Table):
+    """Material that sliding takes off the sides: a depth in proportion to pressure and way, in static steps.
+
+    TOML: `contact.wear`.
+    """
+
+    _toml = "contact.wear"
+    coefficient: Key[float | None, float] = Key("Depth per way and pressure (1/pressure)", "number > 0.0")
+    hardness: Key[float | None, float] = Key("With `k` (pressure)", "number > 0.0")
+    k: Key[float | None, float] = Key("The same times the hardness", "number > 0.0")
+    limit: Key[float, float] = Key(
+        "Depth over the size of the facets beyond which a warning says so: nodes stay where they are",
+        "number > 0.0",
+        default=0.05,
+    )
+    of: Key[Literal["secondary", "primary"], Literal["secondary", "primary"]] = Key(
+        "The side whose coefficient that is",
+        "`\"secondary\"`, `\"primary\"`",
+        default="secondary",
+    )
+    primary: Key[float | None, float] = Key(
+        "The coefficient of the primary side, in addition to that of the secondary one",
+        "number > 0.0",
+    )
+
+
 class Contact(Table):
     """Pairs of surfaces that may touch.
 
@@ -767,6 +793,48 @@ class Contact(Table):
         "Whether the sides are joined: false, true or { offset, within }",
         "`true` or `false` or a table",
         default=False,
+    )
+    wear: One[ContactWear] = One(
+        ContactWear,
+        "Material that sliding takes off the sides: a depth in proportion to pressure and way, in static steps",
+        "a table",
+    )
+
+
+class CycleJump(Table):
+    """One cycle that is solved stands for many, as far as wear changes little from one to the next; absent: each is solved.
+
+    TOML: `cycle.jump`.
+    """
+
+    _toml = "cycle.jump"
+    first: Key[int | None, int] = Key(
+        "For how many the first stands; absent: one in ten thousand",
+        "whole number ≥ 1, ≤ 1000000000",
+    )
+    max_wear: Key[float | None, float] = Key(
+        "The largest depth that one may take off (length); absent: any",
+        "number > 0.0",
+    )
+    tol: Key[float, float] = Key("What may go wrong in one of them, over the depth", "number > 0.0", default=0.01)
+
+
+class Cycle(Table):
+    """Steps that come again and again.
+
+    TOML: `cycle`.
+    """
+
+    _toml = "cycle"
+    count: Key[int | None, int] = Key("How many cycles there are", "whole number ≥ 1, ≤ 1000000000")
+    jump: One[CycleJump] = One(
+        CycleJump,
+        "One cycle that is solved stands for many, as far as wear changes little from one to the next; absent: each is solved",
+        "a table",
+    )
+    steps: Key[list[str] | None, Sequence[str]] = Key(
+        "Their names, which follow one another in the case",
+        "list of text",
     )
 
 
@@ -1728,6 +1796,10 @@ class ContactChange(Table):
         "number ≥ 0.0 or a table",
     )
     name: Key[str | None, str] = Key("The contact", "text")
+    slip: Key[float | None, float] = Key(
+        "How far the sides slide for wear in each step, out of the plane or round (length); absent: as they move",
+        "number ≥ 0.0",
+    )
 
 
 class Deactivate(Table):
@@ -2463,6 +2535,7 @@ class CaseTable(Table):
         key="constraint",
     )
     contacts: Items[Contact] = Items(Contact, "Pairs of surfaces that may touch", "list of a table", key="contact")
+    cycle: Items[Cycle] = Items(Cycle, "Steps that come again and again", "list of a table")
     expects: Items[Expect] = Items(Expect, "Values that are checked at the end", "list of a table", key="expect")
     format: Key[int, int] = Key("Version of the case format", "whole number ≥ 1", default=1)
     initial: One[Initial] = One(Initial, "Fields at the start", "a table")
@@ -2572,6 +2645,7 @@ if TYPE_CHECKING:
         "start": ContactStart | Mapping[str, Any],
         "temperature": float,
         "tied": bool | ContactTied | Mapping[str, Any],
+        "wear": ContactWear | Mapping[str, Any],
     }, total=False)
     OrientationKeys = TypedDict("OrientationKeys", {
         "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],

@@ -173,6 +173,7 @@ fn grow(model: &mut Model, births: &[Birth], from: &Archive) -> Result<Stepper, 
     inherit((&before, from), (&numberings(&larger.system), &mut archive));
     let stepper = Stepper::resumed(&mut larger.system, larger.settings, &archive);
     let stepper = stepper.map_err(cannot_resume)?;
+    let stepper = stepper.with_cycles(larger.cycles.clone());
     *model = larger;
     Ok(stepper)
 }

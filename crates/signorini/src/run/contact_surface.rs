@@ -94,6 +94,12 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
         ("contact_closure", some(|c| &c.closure)),
         ("contact_closure_max", some(|c| &c.closure_max)),
     ];
+    let wears = frame.contacts.iter().any(|c| c.wear.is_some());
+    let worn = frame.contacts.iter().flat_map(|c| match &c.wear {
+        Some(wear) => wear.depth.clone(),
+        None => vec![0.0; c.nodes.len()],
+    });
+    let worn: Vec<f64> = worn.collect();
     let mut fields = vec![
         Field::new("displacement", Values::Vector(&displacement)),
         Field::new("contact_gap", Values::Scalar(&gap)),
@@ -117,6 +123,9 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     fields.extend(more.map(|(name, values)| Field::new(name, Values::Scalar(values))));
     if breaks {
         fields.push(Field::new("contact_damage", Values::Scalar(&damage)));
+    }
+    if wears {
+        fields.push(Field::new("worn_depth", Values::Scalar(&worn)));
     }
     let (time, place) = ([frame.time], place(frame));
     let grid = Grid {

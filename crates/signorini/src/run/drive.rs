@@ -12,7 +12,7 @@ use super::start::{Start, begin, facts};
 use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
-use super::{Finished, NOT_STARTED, RunOptions, drift, event_of, failure, solution, torn};
+use super::{Finished, NOT_STARTED, RunOptions, drift, event_of, failure, solution, torn, worn};
 use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
@@ -242,10 +242,12 @@ impl Run<'_, '_> {
             Some(from) => {
                 let archive = solution::of(&from.archive);
                 Stepper::resumed(&mut self.model.system, self.model.settings, &archive)?
+                    .with_cycles(self.model.cycles.clone())
             }
             None => {
                 self.recorder.undeformed(&start.frame);
                 Stepper::new(&self.model.system, self.model.settings)
+                    .with_cycles(self.model.cycles.clone())
             }
         };
         // its memory serves the run
@@ -353,6 +355,8 @@ impl Run<'_, '_> {
         self.report_unless_allowed(leaks, &mut found);
         let viscous = torn::warnings(&self.recorder.torn);
         self.report_unless_allowed(viscous, &mut found);
+        let deep = worn::warnings(&self.recorder.worn, self.model);
+        self.report_unless_allowed(deep, &mut found);
         if verdict.exit_code == 0 && wrong && self.options.strict {
             verdict = Verdict::new(1, "audit failed");
         }

@@ -10,7 +10,7 @@ use signorini_io::writers::csv::{
     COHESION_COLUMNS, CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS,
     history_columns, reference_columns,
 };
-use signorini_mechanics::system::{ContactFrame, Energies, Frame, Resultant, RigidFrame};
+use signorini_mechanics::system::{ContactFrame, Energies, Frame, Resultant, RigidFrame, Wear};
 
 /// The columns of a run and where their values come from.
 #[derive(Debug)]
@@ -30,7 +30,19 @@ enum Chosen {
     Copy(usize),
     /// A field at nodes.
     Probe(Probe),
+    /// Cycles that are behind.
+    Cycles,
+    /// What is worn off a contact.
+    Worn(String, fn(&Wear) -> f64),
 }
+
+/// The columns of every contact that wears, after its name and a dot: volumes of the secondary and the primary side, and the largest
+/// depth of either.
+const WEAR_COLUMNS: [(&str, fn(&Wear) -> f64); 3] = [
+    ("worn_volume", |wear| wear.volume[0]),
+    ("worn_volume_primary", |wear| wear.volume[1]),
+    ("worn_depth", |wear| wear.deepest),
+];
 
 impl History {
     /// The columns of a model.
@@ -48,6 +60,17 @@ impl History {
         let mut found = Diagnostics::new();
         let mut names = Vec::new();
         let mut chosen = Vec::new();
+        if !model.cycles.is_empty() {
+            names.push("cycles".to_owned());
+            chosen.push(Chosen::Cycles);
+        }
+        let wearing = model.case.contacts.iter().filter(|c| c.wear.is_some());
+        for contact in wearing {
+            for (column, value) in WEAR_COLUMNS {
+                names.push(format!("{}.{column}", contact.name.value));
+                chosen.push(Chosen::Worn(contact.name.value.clone(), value));
+            }
+        }
         for entry in &model.case.output.history {
             for quantity in &entry.quantities {
                 match choose(model, &standard, &entry.source, quantity) {
@@ -117,6 +140,11 @@ impl History {
             let value = match one {
                 Chosen::Copy(column) => values.get(*column).copied().unwrap_or(f64::NAN),
                 Chosen::Probe(probe) => probe.value(frame),
+                Chosen::Cycles => frame.cycles,
+                Chosen::Worn(name, of) => {
+                    let contact = frame.contacts.iter().find(|c| c.name == *name);
+                    contact.and_then(|c| c.wear.as_ref()).map_or(0.0, of)
+                }
             };
             values.push(value);
         }

@@ -47,6 +47,7 @@ mod tests;
 mod torn;
 mod tree;
 mod volume;
+mod worn;
 
 pub use by_points::solve;
 pub use drive::run;

@@ -49,7 +49,7 @@ fn contact_status(frame: &Frame, node: usize) -> Option<f64> {
 }
 
 /// Every quantity with its name; those of forces are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 47] = [
+const QUANTITIES: [(&str, Read); 48] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
@@ -96,6 +96,7 @@ const QUANTITIES: [(&str, Read); 47] = [
     ("contact_closure_max", |f, n| {
         contact(f, n).and_then(|(one, at)| one.closure_max.get(at).copied())
     }),
+    ("worn_depth", |f, n| f.worn_depth.get(n).copied()),
     ("stress.xx", |f, n| tensor(&f.stress, n, Sym3::xx)),
     ("stress.yy", |f, n| tensor(&f.stress, n, Sym3::yy)),
     ("stress.zz", |f, n| tensor(&f.stress, n, Sym3::zz)),

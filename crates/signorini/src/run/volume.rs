@@ -126,6 +126,10 @@ impl Volume {
             let pressure = Values::Scalar(&frame.contact_pressure);
             at_nodes.push(Field::new("contact_pressure", pressure));
             at_nodes.push(Field::new("contact_force", Values::Vector(&force)));
+            if !frame.worn_depth.is_empty() {
+                let depth = Values::Scalar(&frame.worn_depth);
+                at_nodes.push(Field::new("worn_depth", depth));
+            }
         }
         at_nodes.extend_from_slice(more_at_nodes);
         in_cells.extend_from_slice(more_in_cells);

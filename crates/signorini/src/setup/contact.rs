@@ -24,7 +24,7 @@ use signorini_mechanics::contact::{Critical, Measure};
 use signorini_mechanics::model::{
     self, AreaPart, CohesionPart, ContactChange, ContactPart, ContactSummary, FeaturesPart,
     FluidPart, FrictionPart, Method, PrimaryPart, SidePart, SofteningPart, StartPart, StickPart,
-    TieOffset, TiePart,
+    TieOffset, TiePart, WearPart,
 };
 use signorini_mechanics::system::ReportedAs;
 use signorini_vocabulary::Entry;
@@ -103,6 +103,9 @@ fn contact(
             pulls: part.damping.pulls,
         },
         restitution: *part.restitution,
+        wear: part.wear.map(|wear| WearPart {
+            coefficients: wear.coefficients,
+        }),
         sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {
@@ -579,7 +582,8 @@ impl<'a> Changes<'a> {
                 *sliding = changed.as_ref();
             }
             *fluid = change.fluid.or(*fluid);
-            if (*active, *sliding, *fluid) == before {
+            let slip = change.slip.filter(|_| contact.wear.is_some());
+            if (*active, *sliding, *fluid) == before && slip.is_none() {
                 found.push(without_effect(step, change, "all of it was so before"));
                 continue;
             }
@@ -587,6 +591,7 @@ impl<'a> Changes<'a> {
                 contact: number,
                 active: change.active,
                 fluid: change.fluid,
+                slip,
                 friction: change.friction.as_ref().map(|changed| {
                     let changed = changed.as_ref();
                     let contact = (&change.name, &change.place);

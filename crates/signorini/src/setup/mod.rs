@@ -10,6 +10,7 @@ mod choices;
 mod constraints;
 mod contact;
 mod cuts;
+mod cycles;
 pub(crate) mod gaps;
 pub(crate) mod general;
 mod heat;
@@ -57,7 +58,7 @@ use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::model::{LockingSummary, Parts, Unheld};
 use signorini_mechanics::solid::Locking;
-use signorini_mechanics::solve::{Step, StepperSettings};
+use signorini_mechanics::solve::{Cycle, Step, StepperSettings};
 use signorini_mechanics::system::{Idealisation, System};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -73,6 +74,8 @@ pub struct Model {
     pub system: System,
     /// The steps.
     pub steps: Vec<Step>,
+    /// Those that come again.
+    pub cycles: Vec<Cycle>,
     /// The numbers of the solution.
     pub settings: StepperSettings,
     /// The contacts, with what was chosen for them.
@@ -199,6 +202,7 @@ fn build_of(
     let carriers = Carriers::new(&case, &names, &mut found);
     let settings = settings::settings(&case.solver, &mut found);
     let prints = prints::prints(&case, &names, &mut found);
+    let cycles = cycles::cycles(&case, &mut found);
     let places = (&names, &carriers, &cuts);
     let (mut parts, start) = match parts(&case, &mesh, own, places, &mut found) {
         Some(parts) if !found.has_errors() => parts,
@@ -263,6 +267,7 @@ fn build_of(
         name: String::from("case"),
         system: model.system,
         steps: model.steps,
+        cycles,
         settings,
         contacts,
         locking: model.locking,

@@ -77,7 +77,7 @@ pub fn example(name: &str, set: &[(&str, &str)]) -> Model {
 
 pub fn run(model: &mut Model) -> Run {
     let mut run = Run::default();
-    let mut stepper = Stepper::new(&model.system, model.settings);
+    let mut stepper = Stepper::new(&model.system, model.settings).with_cycles(model.cycles.clone());
     let outcome = stepper.run(&mut model.system, &model.steps, &mut |event: &Event<'_>| {
         match event {
             Event::Iteration(record) => run.iterations.push((*record).clone()),

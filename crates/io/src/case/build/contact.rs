@@ -132,6 +132,7 @@ impl Builder<'_> {
             friction_heat: friction_heat(fields),
             temperature: fields.number_if("temperature").map(|number| number.value),
             restitution: Spanned::new(fields.number("restitution"), fields.place("restitution")),
+            wear: self.wear(fields),
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,
                 "small" => Sliding::Small,
@@ -643,12 +644,39 @@ impl Builder<'_> {
         }
     }
 
+    fn wear(&mut self, fields: Fields<'_>) -> Option<Wear> {
+        let table = fields.has("wear").then(|| fields.table("wear"))?;
+        let number = |key: &str| table.number_if(key).map(|number| number.value);
+        let of_hardness = number("k").zip(number("hardness")).map(|(k, h)| k / h);
+        let coefficient = number("coefficient").or(of_hardness).unwrap_or_default();
+        let mut coefficients = match table.text("of").value.as_str() {
+            "primary" => [0.0, coefficient],
+            _ => [coefficient, 0.0],
+        };
+        if let Some(primary) = number("primary") {
+            if coefficients[1] > 0.0 {
+                self.error(
+                    &codes::CONTRADICTION,
+                    "`primary` and  of = \"primary\"  give two coefficients of one side",
+                    &table.place("primary"),
+                    "delete one of them",
+                );
+            }
+            coefficients[1] = primary;
+        }
+        Some(Wear {
+            coefficients,
+            limit: table.number("limit"),
+        })
+    }
+
     pub(super) fn contact_change(&mut self, fields: Fields<'_>, place: Place) -> ContactChange {
         ContactChange {
             name: fields.text("name"),
             active: fields.flag_if("active"),
             friction: fields.has("friction").then(|| self.friction(fields)),
             fluid: fields.number_if("fluid").map(|pressure| pressure.value),
+            slip: fields.number_if("slip").map(|slip| slip.value),
             place,
         }
     }

@@ -7,7 +7,7 @@ use super::contact::{method, per, start};
 use crate::diagnostic::{Diagnostic, Place, codes};
 
 /// Keys of a contact that mean nothing where pairs are found, with what to write instead.
-const REFUSED: [(&str, &str); 4] = [
+const REFUSED: [(&str, &str); 5] = [
     ("passes", "delete it"),
     (
         "reach",
@@ -18,6 +18,10 @@ const REFUSED: [(&str, &str); 4] = [
         "name the sides that are joined in a [[contact]] of their own",
     ),
     ("pairs", "delete it"),
+    (
+        "wear",
+        "name the sides that wear in a [[contact]] of their own",
+    ),
 ];
 
 impl Builder<'_> {

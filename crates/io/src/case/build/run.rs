@@ -121,6 +121,25 @@ pub(super) fn output(fields: Fields<'_>) -> Output {
     }
 }
 
+/// The part of all cycles for which the first stands.
+const FIRST: u64 = 10_000;
+
+pub(super) fn cycle(fields: Fields<'_>, place: Place) -> Cycle {
+    let count = fields.count("count").max(1);
+    let jump = fields.table("jump");
+    let first = jump.count_if("first").map(|first| first.value);
+    Cycle {
+        steps: fields.texts("steps"),
+        count,
+        jump: fields.has("jump").then(|| Jump {
+            tol: jump.number("tol"),
+            first: first.unwrap_or(count / FIRST).max(1),
+            max_wear: jump.number_if("max_wear").map(|depth| depth.value),
+        }),
+        place,
+    }
+}
+
 pub(super) fn expectation(fields: Fields<'_>, place: Place) -> Expectation {
     let at = match (fields.count_if("at"), fields.number_if("time")) {
         (Some(row), _) => Moment::Row(row.value),

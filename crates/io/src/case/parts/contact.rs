@@ -49,6 +49,8 @@ pub struct Contact {
     pub friction_heat: Option<FrictionHeat>,
     /// The temperature of a rigid surface.
     pub temperature: Option<f64>,
+    /// How its sides wear; none: not.
+    pub wear: Option<Wear>,
     /// How far points slide.
     pub sliding: Sliding,
     /// On what of the primary side points may rest.
@@ -98,6 +100,7 @@ impl Contact {
             conductance: Vec::new(),
             friction_heat: Some(FrictionHeat::default()),
             temperature: None,
+            wear: None,
             sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,
@@ -437,6 +440,8 @@ pub struct ContactChange {
     pub friction: Option<Option<Friction>>,
     /// The pressure of its fluid at the end of the step; none: as before.
     pub fluid: Option<f64>,
+    /// How far its sides slide for wear in each step (length); none: as before.
+    pub slip: Option<f64>,
     /// Where it was written.
     pub place: Place,
 }
@@ -542,6 +547,15 @@ impl GeneralPair {
 
 /// The word for everything, in pairs.
 pub const ANY: &str = "any";
+
+/// Material that sliding takes off the sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wear {
+    /// Depth per pressure and way, of the secondary side and of the primary one (1/pressure).
+    pub coefficients: [f64; 2],
+    /// Depth over the size of the facets beyond which a warning says so.
+    pub limit: f64,
+}
 
 /// What damps closed points in dynamic steps (pressure, or force, over velocity).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

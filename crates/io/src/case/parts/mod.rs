@@ -79,6 +79,8 @@ pub struct Case {
     pub initial_strain: Vec<AtPoint>,
     /// What happens, in order.
     pub steps: Vec<Step>,
+    /// Steps that come again.
+    pub cycles: Vec<Cycle>,
     /// How equations are solved.
     pub solver: Solver,
     /// What is written.

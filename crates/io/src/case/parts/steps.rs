@@ -464,3 +464,27 @@ pub enum Totals {
     /// Only the sums.
     Only,
 }
+
+/// Steps that come again and again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// Their names.
+    pub steps: Vec<Name>,
+    /// How many cycles there are.
+    pub count: u64,
+    /// What lets one stand for many; none: each is solved.
+    pub jump: Option<Jump>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// For how many cycles one stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// What may go wrong in one of them, over the depth.
+    pub tol: f64,
+    /// For how many the first stands.
+    pub first: u64,
+    /// The largest depth that one may take off (length); none: any.
+    pub max_wear: Option<f64>,
+}

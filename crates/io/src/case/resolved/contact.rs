@@ -61,6 +61,7 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         entries.push(("conductance", conductance(&contact.conductance)));
     }
     entries.extend(contact.temperature.map(|t| ("temperature", t.into())));
+    entries.extend(contact.wear.map(|of| ("wear", wear(of))));
     match *contact.method {
         Method::GaussPoint => entries.push(("rule", rule(contact.rule))),
         Method::NodeToNode => entries.extend([
@@ -259,6 +260,20 @@ fn fluid(fluid: &Fluid) -> Value {
     ])
 }
 
+fn wear(wear: Wear) -> Value {
+    let [secondary, primary] = wear.coefficients;
+    let (of, coefficient) = match secondary > 0.0 {
+        true => ("secondary", secondary),
+        false => ("primary", primary),
+    };
+    let mut entries = vec![("coefficient", coefficient.into()), ("of", of.into())];
+    if secondary > 0.0 && primary > 0.0 {
+        entries.push(("primary", primary.into()));
+    }
+    entries.push(("limit", wear.limit.into()));
+    Value::Table(entries)
+}
+
 fn tied(tied: &Tied) -> Value {
     let offset = match tied.offset {
         Offset::Keep => "keep",
@@ -356,6 +371,7 @@ fn start(start: &Start) -> Value {
 pub(super) fn contact_change(change: &ContactChange) -> Entries {
     let mut entries = vec![("name", (&change.name.value).into())];
     entries.extend(change.active.map(|active| ("active", active.into())));
+    entries.extend(change.slip.map(|slip| ("slip", slip.into())));
     let friction = change.friction.as_ref();
     entries.extend(friction.map(|friction| ("friction", self::friction(friction.as_ref()))));
     entries.extend(change.fluid.map(|pressure| ("fluid", pressure.into())));

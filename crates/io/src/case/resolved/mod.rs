@@ -16,7 +16,7 @@ use model::{
     body, constraint, initial, local_axes, mass, material, mesh, model, orientation, reference,
     set_content, spring, thickness,
 };
-use run::{checkpoint, expectation, output, solver};
+use run::{checkpoint, cycle, expectation, output, solver};
 use steps::{amplitude, step};
 use surface::surface;
 use write::{Entries, Value, list, named, tables, write_table};
@@ -91,6 +91,7 @@ fn tree(case: &Case) -> Entries {
     }
     entries.extend([
         ("step", tables(&case.steps, step)),
+        ("cycle", tables(&case.cycles, cycle)),
         ("solver", Value::Table(solver(&case.solver))),
         ("output", Value::Table(output(&case.output))),
         ("checkpoint", Value::Table(checkpoint(&case.checkpoint))),

@@ -105,6 +105,17 @@ pub(super) fn checkpoint(checkpoint: &Checkpoint) -> Entries {
     entries
 }
 
+pub(super) fn cycle(one: &Cycle) -> Entries {
+    let steps = list(one.steps.iter().map(|name| &name.value));
+    let mut entries = vec![("steps", steps), ("count", one.count.into())];
+    if let Some(jump) = one.jump {
+        let mut table = vec![("tol", jump.tol.into()), ("first", jump.first.into())];
+        table.extend(jump.max_wear.map(|depth| ("max_wear", depth.into())));
+        entries.push(("jump", Value::Table(table)));
+    }
+    entries
+}
+
 pub(super) fn expectation(one: &Expectation) -> Entries {
     let mut entries = vec![("what", (&one.what.value).into())];
     match one.at {

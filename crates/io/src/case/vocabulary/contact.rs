@@ -89,6 +89,7 @@ pub(super) static CONTACT: Table = Table {
             "the velocity with which points leave an impact, over that with which they came: of multipliers, between rigid sides, and in explicit steps",
         )
         .or(Default::Number(0.0)),
+        key("wear", Shape::Table(&WEAR), WEAR.doc).hints(&["archard"]),
         key(
             "conductance",
             Shape::Either(&[NOT_NEGATIVE, Shape::Table(&CONDUCTANCE)]),
@@ -441,6 +442,43 @@ static DAMPING: Table = Table {
     rules: &[],
 };
 
+static WEAR: Table = Table {
+    heading: "wear",
+    doc: "material that sliding takes off the sides: a depth in proportion to pressure and way, in static steps",
+    keys: &[
+        key(
+            "coefficient",
+            POSITIVE,
+            "depth per way and pressure (1/pressure)",
+        )
+        .hints(&["rate"]),
+        key("k", POSITIVE, "the same times the hardness"),
+        key("hardness", POSITIVE, "with `k` (pressure)"),
+        key(
+            "of",
+            Shape::Choice(&[word("secondary"), word("primary")]),
+            "the side whose coefficient that is",
+        )
+        .or(Default::Text("secondary")),
+        key(
+            "primary",
+            POSITIVE,
+            "the coefficient of the primary side, in addition to that of the secondary one",
+        ),
+        key(
+            "limit",
+            POSITIVE,
+            "depth over the size of the facets beyond which a warning says so: nodes stay where they are",
+        )
+        .or(Default::Number(0.05)),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["coefficient", "k"]),
+        Rule::Needs("k", "hardness"),
+        Rule::Needs("hardness", "k"),
+    ],
+};
+
 static RULE: Table = Table {
     heading: "rule",
     doc: "points of gauss-point, along each direction of a facet",
@@ -713,6 +751,11 @@ pub(super) static CONTACT_CHANGE: Table = Table {
             NOT_NEGATIVE,
             "the pressure of its fluid at the end of the step, reached linearly",
         ),
+        key(
+            "slip",
+            NOT_NEGATIVE,
+            "how far the sides slide for wear in each step, out of the plane or round (length); absent: as they move",
+        ),
     ],
-    rules: &[Rule::AtLeastOne(&["active", "friction", "fluid"])],
+    rules: &[Rule::AtLeastOne(&["active", "friction", "fluid", "slip"])],
 };

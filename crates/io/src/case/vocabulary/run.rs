@@ -218,6 +218,46 @@ pub(super) static CHECKPOINT_EVERY: Table = Table {
     rules: &[Rule::AtLeastOne(&["increments", "wall"])],
 };
 
+pub(super) static CYCLE: Table = Table {
+    heading: "[[cycle]]",
+    doc: "steps that come again and again",
+    keys: &[
+        key(
+            "steps",
+            Shape::List(&Shape::Text, 1, MANY),
+            "their names, which follow one another in the case",
+        )
+        .required(),
+        key("count", COUNT, "how many cycles there are").required(),
+        key("jump", Shape::Table(&JUMP), JUMP.doc),
+    ],
+    rules: &[],
+};
+
+static JUMP: Table = Table {
+    heading: "jump",
+    doc: "one cycle that is solved stands for many, as far as wear changes little from one to the next; absent: each is solved",
+    keys: &[
+        key(
+            "tol",
+            POSITIVE,
+            "what may go wrong in one of them, over the depth",
+        )
+        .or(Default::Number(0.01)),
+        key(
+            "first",
+            COUNT,
+            "for how many the first stands; absent: one in ten thousand",
+        ),
+        key(
+            "max_wear",
+            POSITIVE,
+            "the largest depth that one may take off (length); absent: any",
+        ),
+    ],
+    rules: &[],
+};
+
 pub(super) static EXPECT: Table = Table {
     heading: "[[expect]]",
     doc: "values that are checked at the end",

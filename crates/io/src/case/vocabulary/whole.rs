@@ -3,7 +3,7 @@
 use super::bodies::{BODY, CONSTRAINT, MASS, MATERIAL, NAMED_ORIENTATION, SPRING};
 use super::contact::CONTACT;
 use super::geometry::{AXES, CONSTANTS, INITIAL, MESH, MODEL, REFERENCE, SET, THICKNESS};
-use super::run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
+use super::run::{CHECKPOINT, CYCLE, EXPECT, OUTPUT, SOLVER};
 use super::steps::{AMPLITUDE, STEP};
 use super::surface::SURFACE;
 use super::*;
@@ -37,6 +37,7 @@ pub(super) static CASE: Table = Table {
         key("constants", Shape::Table(&CONSTANTS), CONSTANTS.doc),
         key("initial", Shape::Table(&INITIAL), INITIAL.doc),
         key("step", Shape::Tables(&STEP), STEP.doc).required().hints(&["steps"]),
+        key("cycle", Shape::Tables(&CYCLE), CYCLE.doc).hints(&["cycles", "repeat"]),
         key("solver", Shape::Table(&SOLVER), SOLVER.doc),
         key("output", Shape::Table(&OUTPUT), OUTPUT.doc).hints(&["results"]),
         key("checkpoint", Shape::Table(&CHECKPOINT), CHECKPOINT.doc).hints(&["restart"]),

@@ -51,7 +51,12 @@ impl Asked {
             .pressures(gaps, lambdas, laws.scale, &mut self.pressures);
         let with_pair = self.answers.iter_mut().flatten();
         for (answer, pressure) in with_pair.zip(&self.pressures) {
-            answer.pressure = laws.in_motion(answer.at.0, *pressure);
+            let (gap, lambda) = answer.at;
+            let at_end = match gap.worn {
+                Some(_) => laws.law_at(gap, lambda),
+                None => *pressure,
+            };
+            answer.pressure = laws.in_motion(gap, at_end);
         }
         self.ask_for_limits(laws, past);
     }

@@ -283,7 +283,7 @@ impl Interface {
             // the rest of the way from the anchor has slipped
             let slipped = filled.sliding.slip - elastic;
             memory.anchor = None;
-            if self.laws().friction.is_some() {
+            if self.laws().friction.is_some() || self.walks() {
                 memory.anchor = self.history.anchors[row];
                 // weights of a state hold until the next one only
                 let waited = memory.anchor.is_none();
@@ -383,6 +383,7 @@ impl Interface {
         let shifts: Vec<f64> = shifts.flat_map(|s| [s.constant, s.fading]).collect();
         out.put(name("shifts"), &shifts);
         self.store_fluid(out);
+        self.store_wear(out);
     }
 
     pub(super) fn restore(&mut self, from: &Archive) -> Result<(), ArchiveError> {
@@ -476,6 +477,7 @@ impl Interface {
         let shift = |&[constant, fading]: &[f64; 2]| Shift { constant, fading };
         self.parts.shifts = shifts.iter().map(shift).collect();
         self.restore_fluid(from)?;
+        self.restore_wear(from)?;
         self.now.pairs.clone_from(&self.accepted.pairs);
         self.resumed = self.started;
         self.history.begin();

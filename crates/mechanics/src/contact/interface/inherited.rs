@@ -38,14 +38,15 @@ impl Interface {
 
 /// Arrays of rows: numbers for each, and the place of the number of a facet among these. What rows stand for is not among them:
 /// where a side has become larger, there is more around the nodes of its edge.
-const OF_ROWS: [(&str, usize, Option<usize>); 3] = [
+const OF_ROWS: [(&str, usize, Option<usize>); 4] = [
     ("pairs", super::history::PAIR, Some(0)),
     ("memory", super::history::MEMORY, Some(0)),
     ("judged", super::history::JUDGED, Some(1)),
+    ("worn", 1, None),
 ];
 
 /// Arrays of a contact as a whole.
-const OF_ALL: [&str; 2] = ["state", "drift"];
+const OF_ALL: [&str; 4] = ["state", "drift", "worn_opposite", "worn_volume"];
 
 /// Puts what is stored of a model into what a model with other contacts stores, which has just been made.
 pub fn inherit(

@@ -33,6 +33,7 @@ mod row_heat;
 mod rows;
 mod term;
 mod thermal;
+mod wear;
 mod weighted;
 mod wet;
 
@@ -44,6 +45,7 @@ pub use parts::{
 pub use wet::{Critical, Fluid};
 
 pub use conducting::{ContactHeat, FrictionHeat};
+pub use wear::WearParts;
 
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;
@@ -67,6 +69,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
+use wear::Worn;
 use wet::Wetting;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
@@ -132,6 +135,8 @@ pub struct Interface {
     increment_start: f64,
     /// Where a fluid is.
     wetting: Wetting,
+    /// What its sides have lost.
+    worn: Worn,
 }
 
 /// Overlaps that an increment allows for.
@@ -164,6 +169,7 @@ impl Interface {
         let nothing = Pairing::nothing(nrow);
         let history = History::new(nrow, parts.bond.as_deref());
         let area_without_supports = parts.area.clone();
+        let worn = Worn::new(parts.wear.as_ref(), nrow);
         Self {
             parts,
             layout,
@@ -201,6 +207,7 @@ impl Interface {
             duration: 0.0,
             increment_start: 0.0,
             wetting: Wetting::default(),
+            worn,
         }
     }
 
@@ -248,6 +255,7 @@ impl Interface {
             vectors: self.parts.has_vectors(),
             shear: self.parts.scale.shear,
             vibrates: self.step.vibrates,
+            walks: self.walks(),
             answer: None,
         }
     }
@@ -334,7 +342,7 @@ impl Interface {
     /// What is added to the gap of a row.
     fn shift(&self, row: usize, time: f64) -> f64 {
         let of_start = self.parts.shifts.get(row).copied().unwrap_or_default();
-        let constant = of_start.constant - self.rise(row);
+        let constant = of_start.constant - self.rise(row) + self.worn.depth(row);
         let allowed = self.allowed.overlaps.get(row).copied().unwrap_or_default();
         if of_start.fading == 0.0 && allowed == 0.0 {
             return constant;
@@ -415,6 +423,7 @@ impl Interface {
     /// The choices and the history that an increment begins with.
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
         let at = from.placement();
+        self.worn.begin();
         if !self.parts.pair.sizes.primary.is_empty() {
             self.parts.pair.start.clear();
             self.parts.pair.start.extend_from_slice(at.x);
@@ -448,6 +457,7 @@ impl Interface {
             self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
         }
         self.bend_again(&at).map_err(|e| self.failed(&e))?;
+        self.see_opposite(from)?;
         self.allow_for_overlaps(from, renews || first)?;
         if first || others || settled {
             self.judged = self.judge(from)?;

@@ -80,7 +80,8 @@ impl Interface {
     /// way than when they came to stick.
     pub(super) fn stick(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         let waits = self.parts.remembers_traction;
-        if self.parts.bond.is_some() || self.laws().friction.is_none() || waits {
+        let rubs = self.laws().friction.is_some() || self.walks();
+        if self.parts.bond.is_some() || !rubs || waits {
             return Ok(());
         }
         let discretization = self.parts.discretization.as_ref();

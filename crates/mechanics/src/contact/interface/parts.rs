@@ -1,6 +1,7 @@
 //! What an interface is made from.
 
 use super::conducting::ContactHeat;
+use super::wear::WearParts;
 use super::wet::Fluid;
 use crate::contact::cohesion::Cohesion;
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
@@ -31,6 +32,8 @@ pub struct ContactPhase {
     pub stands: bool,
     /// Whether the elements of its facets take part.
     pub present: bool,
+    /// How far its sides slide for wear, in the whole step; `None`: as they move.
+    pub slip: Option<f64>,
 }
 
 /// What is added to the gap of a row.
@@ -115,6 +118,8 @@ pub struct InterfaceParts {
     pub damping: Damping,
     /// How heat goes across it, where temperatures are unknowns.
     pub heat: Option<ContactHeat>,
+    /// How its sides wear; `None`: not.
+    pub wear: Option<WearParts>,
     /// Whether no side yields.
     pub is_rigid: bool,
     /// The velocity of rows that leave an impact over that with which they came, where impulses act.
@@ -172,6 +177,7 @@ impl InterfaceParts {
             allowance: Allowance::default(),
             fluid: None,
             damping: Damping::default(),
+            wear: None,
             restitution: 0.0,
             bend: None,
             first_multiplier: 0,

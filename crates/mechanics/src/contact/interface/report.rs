@@ -206,6 +206,7 @@ impl Interface {
         {
             energies.damping += torn;
         }
+        self.report_wear(&mut report, frame);
         if self.history.damped[0] != 0.0 {
             frame.energies.get_or_insert_default().damping += self.history.damped[0];
         }
@@ -487,7 +488,10 @@ impl Interface {
         };
         let scalar = laws.scalar(filled.normal, lambda);
         let across = match self.nmultiplier() {
-            0 => laws.law.energy(filled.gap, scalar, laws.scale),
+            0 => {
+                let seen = laws.seen_by_law(filled.seen(), traction.pressure);
+                laws.law.energy(seen, scalar, laws.scale)
+            }
             _ => None,
         };
         along + across.unwrap_or(0.0)

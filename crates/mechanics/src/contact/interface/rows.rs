@@ -98,10 +98,10 @@ impl Interface {
     ) -> Result<Wanted, TermError> {
         let parts = &self.parts;
         let laws = self.laws();
-        let order = match trial.between {
-            // a gap at the end of the increment takes weights
-            Some(_) => order.max(RowOrder::Gradient),
-            None => order,
+        // a gap at the end of the increment takes weights, and wear how far rows slide
+        let order = match trial.between.is_some() || laws.walks {
+            true => order.max(RowOrder::Gradient),
+            false => order,
         };
         let wanted = Wanted {
             order,
@@ -174,6 +174,7 @@ impl Interface {
                 self.turn_bond(row);
             }
         }
+        self.wear_row(row, trial, wanted.order, rows);
         Ok(())
     }
 
@@ -454,7 +455,7 @@ impl Interface {
             return Ok(None);
         };
         let scalar = laws.scalar(row.normal, &lambda);
-        let normal = laws.law.energy(row.gap, scalar, laws.scale);
+        let normal = laws.energy_at(row.seen(), scalar);
         let along = match held.filter(|_| laws.acts(row.seen(), row.normal, &lambda)) {
             Some(limit) => laws.friction_energy(row, &lambda, limit),
             None => 0.0,

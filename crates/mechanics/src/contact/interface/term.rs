@@ -8,7 +8,7 @@ use crate::contact::law::Multiplier;
 use crate::system::{
     Adaptive, Aid, Archive, ArchiveError, Audited, Capabilities, Choices, ContactAudit,
     ContactNumbering, Frame, Order, Part, PatternSink, Phase, Properties, Sink, State, Stored,
-    Symmetry, Term, TermError, Verdict, Viscous, Work,
+    Symmetry, Term, TermError, Verdict, Viscous, Wearing, Work,
 };
 use signorini_geometry::mesh::NodeId;
 
@@ -26,7 +26,7 @@ impl Term for Interface {
         let turns = self.step.scheme.is_some() && !capabilities.keeps();
         let is_symmetric = capabilities.is_symmetric && !turns;
         let tears = self.parts.cohesion.is_some();
-        let couples = tears || self.couples_heat();
+        let couples = tears || self.couples_heat() || self.walks();
         let symmetry = if rubs || tractions || couples || !is_symmetric {
             Symmetry::Unsymmetric
         } else if self.nmultiplier() > 0 || self.parts.law.softens() {
@@ -55,6 +55,7 @@ impl Term for Interface {
             self.begin_ends(from)?;
         }
         let refused = match phase.step.scheme {
+            Some(_) if self.parts.wear.is_some() => self.wears_in_motion(),
             Some(_) if phase.step.is_explicit() => self.not_explicit(),
             Some(_) => self.not_implicit(),
             None => None,
@@ -100,8 +101,9 @@ impl Term for Interface {
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
         let laws = self.laws();
-        let no_potential = laws.cohesion.is_some() || self.nmultiplier() > 0;
-        if (laws.friction.is_some() && !self.history.holds_limits()) || no_potential {
+        let rubs = laws.friction.is_some() && !self.history.holds_limits();
+        let no_potential = laws.cohesion.is_some() || laws.walks || self.nmultiplier() > 0;
+        if rubs || no_potential {
             return Ok(None);
         }
         let rows = &mut work.of::<Scratch>().rows;
@@ -123,6 +125,7 @@ impl Term for Interface {
             stored: Some(self),
             audited: Some(self),
             impulsive: self.parts.bond.is_none().then_some(self),
+            wearing: self.parts.wear.is_some().then_some(self),
             ..Capabilities::default()
         }
     }
@@ -152,6 +155,7 @@ impl Adaptive for Interface {
             });
         }
         self.stick(&at).map_err(|e| self.failed(&e))?;
+        self.see_opposite(trial)?;
         self.share_out(trial);
         Ok(self.couple(trial))
     }
@@ -277,6 +281,7 @@ impl Stored for Interface {
             self.drift = self.drift.filter(|d| d.0 >= farthest.0).or(Some(farthest));
         }
         self.tear(state)?;
+        self.wear_away(state)?;
         self.remember(state)
     }
 
@@ -286,6 +291,12 @@ impl Stored for Interface {
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
         self.restore(from)
+    }
+}
+
+impl Wearing for Interface {
+    fn depths(&self, out: &mut Vec<f64>) {
+        self.worn.depths(out);
     }
 }
 

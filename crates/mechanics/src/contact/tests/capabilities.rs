@@ -38,6 +38,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
             fluid: None,
             gasket: None,
             cohesion: None,
+            wear: None,
         };
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();

@@ -41,6 +41,7 @@ fn error(
         fluid: None,
         gasket: None,
         cohesion: None,
+        wear: None,
     };
     let mut scene = Scene::new(kind, method, choice, seed);
     let mut random = Random::new(seed + 77);

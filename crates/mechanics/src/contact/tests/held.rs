@@ -54,6 +54,7 @@ fn traction_is_the_slope_of_the_potential() {
             vectors: vector != Vec3::ZERO,
             shear: 20.0,
             vibrates: false,
+            walks: false,
             answer: None,
         };
         let lambda = Lambda {
@@ -101,6 +102,7 @@ fn an_infinite_limit_is_sticking() {
         vectors: false,
         shear: 20.0,
         vibrates: false,
+        walks: false,
         answer: None,
     };
     let slip = Vec3::new(3.0, 4.0, 0.0);
@@ -137,6 +139,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
             vectors: false,
             shear: 20.0,
             vibrates: false,
+            walks: false,
             answer: None,
         };
         for off in [-1e-6, -1e-8, -1e-10, -1e-16, 0.0, 1e-16, 1e-10, 1e-8, 1e-6] {
@@ -180,6 +183,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
         vectors: false,
         shear: 20.0,
         vibrates: false,
+        walks: false,
         answer: None,
     };
     let held = laws.traction(&row(Vec3::unit(0)), &Lambda::default(), past);

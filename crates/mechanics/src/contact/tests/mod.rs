@@ -17,6 +17,7 @@ pub(crate) mod scene;
 mod sliding;
 mod table;
 mod torn;
+mod wear;
 
 use super::discretization::{Discretization, Links, Pairing, SurfacePair};
 use super::row::Rows;

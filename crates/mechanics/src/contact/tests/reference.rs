@@ -186,6 +186,7 @@ impl<'a> Case<'a> {
             vectors: true,
             shear: number("p"),
             vibrates: false,
+            walks: false,
             answer: None,
         };
         let rows = self.rows();

@@ -10,7 +10,7 @@ use super::super::discretization::{
 use super::super::friction::{FrictionLaw, Stick};
 use super::super::law::{ContactLaw, Damping, Gasket, Scale};
 use super::super::{
-    ContactPhase, Fluid, Interface, InterfaceParts, Measure, closest_points, nmultiplier,
+    ContactPhase, Fluid, Interface, InterfaceParts, Measure, WearParts, closest_points, nmultiplier,
 };
 use super::{Random, facets_of, next_increment, with_mid_nodes};
 use crate::system::{
@@ -99,6 +99,14 @@ pub(crate) struct Choice {
     pub gasket: Option<Arc<Gasket>>,
     /// How a bond breaks.
     pub cohesion: Option<Cohesion>,
+    pub wear: Option<Wears>,
+}
+
+/// How the secondary side wears: depth per pressure and way, and a way that is given.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wears {
+    pub coefficient: f64,
+    pub slip: Option<f64>,
 }
 
 pub(crate) struct Scene {
@@ -394,7 +402,12 @@ impl Scene {
                 stands: true,
                 present: true,
                 friction: choice.friction,
+                slip: choice.wear.and_then(|wear| wear.slip),
             }],
+            wear: choice.wear.map(|wear| WearParts {
+                coefficients: [0.7 * wear.coefficient, 0.3 * wear.coefficient],
+                areas: Vec::new(),
+            }),
             bond,
             bond_tangential: choice.tangential,
             damping: choice.damping,

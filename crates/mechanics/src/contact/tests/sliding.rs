@@ -103,6 +103,7 @@ impl Slider {
                 stands: true,
                 present: true,
                 friction,
+                slip: None,
             }],
             ..InterfaceParts::new("led", pair, method, PENALTY)
         };
@@ -383,6 +384,7 @@ fn a_step_without_friction_forgets() {
                     present: true,
                     active: true,
                     friction: rubs.then(|| (coulomb(), stick)),
+                    slip: None,
                 })
                 .into(),
             ..InterfaceParts::new(
@@ -506,6 +508,7 @@ fn rub(law: Box<dyn ContactLaw>) -> Choice {
         fluid: None,
         gasket: None,
         cohesion: None,
+        wear: None,
     }
 }
 
@@ -580,6 +583,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         fluid: None,
         gasket: None,
         cohesion: None,
+        wear: None,
     };
     let gasket = || {
         let loading = vec![[0.0, 0.0], [0.01, 0.2], [0.06, 0.5], [0.2, 2.0]];
@@ -662,6 +666,7 @@ fn planes_of_an_increment_are_those_at_its_start() {
             fluid: None,
             gasket: None,
             cohesion: None,
+            wear: None,
         };
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);

@@ -13,7 +13,7 @@ use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
-fn laws() -> Vec<Box<dyn ContactLaw>> {
+pub(super) fn laws() -> Vec<Box<dyn ContactLaw>> {
     let rows = vec![[-0.2, 2.0], [-0.06, 0.5], [-0.01, 0.2], [0.02, 0.0]];
     vec![
         Box::new(Penalty),
@@ -44,9 +44,9 @@ fn gasket() -> Gasket {
     Gasket::new(loading, vec![(0.2, opening)], None, 0.0).unwrap()
 }
 
-type Friction = Option<(Arc<dyn FrictionLaw>, Stick)>;
+pub(super) type Friction = Option<(Arc<dyn FrictionLaw>, Stick)>;
 
-fn frictions() -> Vec<Friction> {
+pub(super) fn frictions() -> Vec<Friction> {
     let falling = Falling {
         stationary: 0.5,
         kinetic: 0.2,
@@ -223,6 +223,7 @@ fn check(
             fluid: None,
             gasket: (law == GASKET).then(|| Arc::new(gasket())),
             cohesion: None,
+            wear: None,
         };
         let multiplier = choice.law.multiplier();
         let rubs = friction.is_some();
@@ -366,6 +367,7 @@ fn multipliers_that_stick_act_as_they_hold() {
                     fluid: None,
                     gasket: None,
                     cohesion: None,
+                    wear: None,
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
@@ -409,6 +411,7 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
         fluid: None,
         gasket: None,
         cohesion: None,
+        wear: None,
     };
     let kind = Kind::Elements("quad4");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);

@@ -9,6 +9,7 @@ mod process_zone;
 mod sides;
 mod start;
 mod variants;
+mod wear;
 
 pub(super) use junctions::yields;
 pub(super) use sides::{Sides, Source};
@@ -88,6 +89,7 @@ impl<'a> Steps<'a> {
             friction: friction(&part.friction),
             stands: true,
             present: true,
+            slip: None,
         };
         let mut phases = Vec::new();
         for changes in &self.changes {
@@ -98,6 +100,7 @@ impl<'a> Steps<'a> {
                 if let Some(changed) = &change.friction {
                     now.friction = friction(changed);
                 }
+                now.slip = change.slip.or(now.slip);
             }
             let [stands, present] = variant.in_step(phases.len());
             phases.push(ContactPhase {
@@ -188,6 +191,7 @@ impl Context<'_> {
         let bond = bond.transpose().map_err(surface_error)?;
         let fluid = steps.fluid(&sides, part)?;
         let (breaks, zone) = self.breaking(&sides, part, measure, [penalty, length])?;
+        let wear = self.wear(&sides, part)?;
         let summary = ContactSummary {
             name: part.name.clone(),
             enforcement: in_use(&part.enforcement, sides.law.multiplier(), penalty),
@@ -210,6 +214,7 @@ impl Context<'_> {
             allowance: start::allowance(part),
             fluid,
             damping: part.damping,
+            wear,
             is_rigid: !softest.is_finite(),
             restitution: part.restitution,
             heat: (part.heat.clone()).map(|of| of.in_passes(1 + u32::from(part.two_pass))),

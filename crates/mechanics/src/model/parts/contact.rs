@@ -265,6 +265,13 @@ impl CohesionPart {
     }
 }
 
+/// How sides wear (Archard): a depth in proportion to pressure and way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WearPart {
+    /// Depth per pressure and way, of the secondary side and of the primary one.
+    pub coefficients: [f64; 2],
+}
+
 /// What is done about gaps and overlaps at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartPart {
@@ -337,6 +344,8 @@ pub struct ContactPart {
     pub restitution: f64,
     /// How heat goes across it, where temperatures are unknowns.
     pub heat: Option<ContactHeat>,
+    /// How its sides wear; `None`: not.
+    pub wear: Option<WearPart>,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -424,6 +433,7 @@ impl ContactPart {
             damping: Damping::default(),
             restitution: 0.0,
             heat: None,
+            wear: None,
             friction: None,
             remembers_traction: false,
             sliding: SlidingRange::default(),
@@ -449,6 +459,8 @@ pub struct ContactChange {
     pub friction: Option<Option<FrictionPart>>,
     /// The pressure of its fluid at the end of the step; `None`: as before.
     pub fluid: Option<f64>,
+    /// How far its sides slide for wear in each step from now on; `None`: as before.
+    pub slip: Option<f64>,
 }
 
 /// A fluid that may come between the sides of a contact.

@@ -229,6 +229,7 @@ impl Opened {
             drifts: Vec::new(),
             leaks: Leaks::default(),
             torn: Vec::new(),
+            worn: Vec::new(),
             closure: self.closure,
             idle: self.idle,
             work_stabilization: 0.0,

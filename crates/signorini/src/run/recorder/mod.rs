@@ -127,6 +127,8 @@ pub struct Recorder<'l> {
     pub leaks: Leaks,
     /// The contacts whose joints break with viscosity: the energies that damage and viscosity have taken.
     pub torn: Vec<(String, [f64; 2])>,
+    /// How deep contacts are worn, over the size of their facets, and a node there.
+    pub worn: Vec<(String, f64, u32)>,
     /// Which contacts have closed.
     pub closure: Closure,
     /// Which contacts act on nothing that moves somewhere.

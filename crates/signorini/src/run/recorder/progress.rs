@@ -228,6 +228,12 @@ impl Recorder<'_> {
         let torn = frame.contacts.iter().filter(|c| c.work_viscous != 0.0);
         let torn = torn.map(|c| (c.name.clone(), [c.work_damage, c.work_viscous]));
         self.torn = torn.collect();
+        let wears = frame.contacts.iter();
+        let deep = |c: &ContactFrame| {
+            let wear = c.wear.as_ref()?;
+            Some((c.name.clone(), wear.deepest / c.facet_size, wear.node?))
+        };
+        self.worn = wears.filter_map(deep).collect();
         self.work_stabilization = frame.work_stabilization;
         self.work_external = frame.work_external;
         self.audit.look(frame);

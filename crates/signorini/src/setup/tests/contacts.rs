@@ -280,6 +280,7 @@ fn steps_change_contacts_that_act_at_some_time() {
     assert_eq!(parts, [("c", true), ("late", false)]);
     let rough = FrictionPart::coulomb(0.3);
     let change = |contact, active, friction| ContactChange {
+        slip: None,
         contact,
         active,
         friction,
