@@ -350,7 +350,7 @@ fn a_rigid_pin_loses_a_cap() {
 /// A block at a fixed approach that slides to and fro on another one, and loses its pressure as it wears.
 fn reciprocating(count: usize, cycle: &str) -> String {
     let contact = "method = \"node-to-segment\"\nenforcement = { penalty = 1e4, per = \"area\" }\n\
-         wear = { coefficient = 3e-5, limit = 1.0 }\nstart = { interference = \"now\" }";
+         wear = { coefficient = 2e-5, limit = 1.0 }\nstart = { interference = \"now\" }";
     let steps = format!(
         "[[step]]\nname = \"press\"\ngeometry = \"linear\"\nincrements = 1\n\
          fix = [{{ on = \"base\", u = \"all\" }}, {{ on = \"top\", u = [\"x\"] }}]\n\
@@ -372,11 +372,12 @@ fn reciprocating(count: usize, cycle: &str) -> String {
 
 /// One cycle that stands for many gives the depths of all of them, at a tenth of the solutions.
 #[test]
+#[ignore = "long"]
 fn a_cycle_stands_for_many() {
-    let count = 250;
+    let count = 400;
     let each = solved(&reciprocating(count, ""), "each");
     let jumps = solved(
-        &reciprocating(count, "jump = { tol = 0.01, first = 3 }"),
+        &reciprocating(count, "jump = { tol = 0.005, first = 3 }"),
         "jumps",
     );
     let (exact, found) = (each.frames.last().unwrap(), jumps.frames.last().unwrap());
@@ -424,7 +425,7 @@ fn what_does_not_wear_is_said() {
     let text = reciprocating(3, "jump = {}");
     for (from, to, says) in [
         (
-            "wear = { coefficient = 3e-5, limit = 1.0 }",
+            "wear = { coefficient = 2e-5, limit = 1.0 }",
             "",
             "nothing wears",
         ),

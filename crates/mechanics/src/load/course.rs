@@ -266,6 +266,7 @@ mod tests {
             scheme: None,
             vibrates: false,
             physics: crate::system::Physics::default(),
+            cycles: 1.0,
         }
     }
 

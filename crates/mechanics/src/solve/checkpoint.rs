@@ -1,8 +1,8 @@
 //! What a run stores of itself, to go on from there.
 
-use super::cycles::Turns;
 use super::local_error::Record;
 use super::newton::ForceScale;
+use super::step::Turns;
 use super::stepping::{Progress, Stepper};
 use super::work::ExternalWork;
 use crate::explicit::Kept;

@@ -10,42 +10,9 @@
 //! the last of a cycle has to leave them as that.
 
 use super::event::{Event, Flow, IncrementRecord, Observer};
-use super::step::Step;
+use super::step::{Cycle, Jump, Step, Turns};
 use super::stepping::{Outcome, RunError, Stepper};
 use crate::system::{Archive, Frame, System};
-
-/// Steps that come again.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cycle {
-    /// The first of them and the last, which follow one another.
-    pub steps: [usize; 2],
-    /// How many cycles there are.
-    pub count: usize,
-    /// What lets one stand for many; `None`: each is solved.
-    pub jump: Option<Jump>,
-}
-
-/// How many cycles one stands for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jump {
-    /// What may go wrong over the depth.
-    pub tol: f64,
-    /// For how many the first stands.
-    pub first: usize,
-    /// The largest depth that one may take off; `None`: any.
-    pub max_wear: Option<f64>,
-}
-
-/// Where a run is in its cycles.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Turns {
-    /// Cycles that are behind.
-    pub done: f64,
-    /// For how many the present one stands; 0 outside of cycles.
-    pub stands_for: f64,
-    /// Depths that each of those behind has taken off, as the last one found.
-    pub last: Vec<f64>,
-}
 
 /// By how much N may grow; what is left of the number that would just do.
 const GROWTH: f64 = 3.0;

@@ -54,12 +54,11 @@ mod tests;
 mod vibration;
 mod work;
 
-pub use cycles::{Cycle, Jump};
 pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};
 pub use local_error::TimeControl;
 pub use natural::{NaturalMode, Vibrations};
 pub use newton::{Failure, LineSearch, NewtonSettings};
-pub use step::{Increments, Motion, Prescription, Step, Vibration};
+pub use step::{Cycle, Increments, Jump, Motion, Prescription, Step, Vibration};
 pub use stepping::{Outcome, RunError, Stepper, StepperSettings};

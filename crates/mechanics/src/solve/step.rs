@@ -89,6 +89,39 @@ pub struct Vibration {
     pub to: Option<f64>,
 }
 
+/// Steps that come again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// The first of them and the last, which follow one another.
+    pub steps: [usize; 2],
+    /// How many cycles there are.
+    pub count: usize,
+    /// What lets one stand for many; `None`: each is solved.
+    pub jump: Option<Jump>,
+}
+
+/// How many cycles one stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// What may go wrong over the depth.
+    pub tol: f64,
+    /// For how many the first stands.
+    pub first: usize,
+    /// The largest depth that one may take off; `None`: any.
+    pub max_wear: Option<f64>,
+}
+
+/// Where a run is in its cycles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Turns {
+    /// Cycles that are behind.
+    pub done: f64,
+    /// For how many the present one stands; 0 outside of cycles.
+    pub stands_for: f64,
+    /// Depths that each of those behind has taken off, as the last one found.
+    pub last: Vec<f64>,
+}
+
 impl Step {
     /// Whether it leads from equilibrium to equilibrium.
     #[must_use]

@@ -1,12 +1,11 @@
 //! Steps and increments: how time passes.
 
-use super::cycles::{Cycle, Turns};
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::local_error::{Record, look, next};
 use super::newton::{Failure, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
-use super::step::{Increments, Motion, Sizes, Step};
+use super::step::{Cycle, Increments, Motion, Sizes, Step, Turns};
 use super::work::ExternalWork;
 use crate::explicit::{Explicit, Kept};
 use crate::system::{

@@ -20,7 +20,7 @@ use crate::diagnostic::{Code, Diagnostics, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
 use builder::Builder;
 use geometry::{at_points, temperatures_at, thicknesses_at};
-use run::{cycle, expectation, output};
+use run::{cycles, expectation, output};
 use toml::de::DeTable;
 
 /// The version of the case format that this program reads and writes.
@@ -146,11 +146,7 @@ impl Builder<'_> {
                 .into_iter()
                 .map(|(fields, place)| self.step(fields, place))
                 .collect(),
-            cycles: root
-                .tables("cycle")
-                .into_iter()
-                .map(|(fields, place)| cycle(fields, place))
-                .collect(),
+            cycles: cycles(&root),
             solver: self.solver(root.table("solver")),
             output: output(root.table("output")),
             checkpoint: self.checkpoint(root.table("checkpoint")),

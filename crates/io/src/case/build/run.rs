@@ -124,7 +124,12 @@ pub(super) fn output(fields: Fields<'_>) -> Output {
 /// The part of all cycles for which the first stands.
 const FIRST: u64 = 10_000;
 
-pub(super) fn cycle(fields: Fields<'_>, place: Place) -> Cycle {
+pub(super) fn cycles(root: &Fields<'_>) -> Vec<Cycle> {
+    let all = root.tables("cycle").into_iter();
+    all.map(|(fields, place)| cycle(fields, place)).collect()
+}
+
+fn cycle(fields: Fields<'_>, place: Place) -> Cycle {
     let count = fields.count("count").max(1);
     let jump = fields.table("jump");
     let first = jump.count_if("first").map(|first| first.value);

@@ -40,12 +40,11 @@ mod wet;
 pub use inherited::inherit;
 pub use near::closest_points;
 pub use parts::{
-    Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, nmultiplier,
+    Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, WearParts, nmultiplier,
 };
 pub use wet::{Critical, Fluid};
 
 pub use conducting::{ContactHeat, FrictionHeat};
-pub use wear::WearParts;
 
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;

@@ -1,13 +1,13 @@
 //! What an interface is made from.
 
 use super::conducting::ContactHeat;
-use super::wear::WearParts;
 use super::wet::Fluid;
 use crate::contact::cohesion::Cohesion;
 use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{ContactLaw, Damping, Gasket, Penalty, Scale};
 use crate::system::ReportedAs;
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::SurfaceError;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -75,6 +75,15 @@ pub struct Bend {
 /// Tributary areas of all rows, from the positions of all nodes.
 pub type Areas =
     Box<dyn Fn(&dyn Discretization, &[Vec3]) -> Result<Vec<f64>, SurfaceError> + Send + Sync>;
+
+/// How the sides of an interface wear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WearParts {
+    /// Depth per pressure and way, of the secondary side and of the primary one.
+    pub coefficients: [f64; 2],
+    /// Nodes of the primary side with their areas, sorted; empty where it does not wear.
+    pub areas: Vec<(NodeId, f64)>,
+}
 
 /// What an interface is made of.
 pub struct InterfaceParts {

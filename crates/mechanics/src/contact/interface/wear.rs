@@ -19,20 +19,12 @@
 
 use super::{
     Archive, ArchiveError, ContactPhase, Interface, Measure, Participant, Rows, State, TermError,
+    WearParts,
 };
 use crate::contact::row::{RowOrder, Series};
 use crate::system::{ContactFrame, Frame, Wear};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
-
-/// How the sides of an interface wear.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WearParts {
-    /// Depth per pressure and way, of the secondary side and of the primary one.
-    pub coefficients: [f64; 2],
-    /// Nodes of the primary side with their areas, sorted; empty where it does not wear.
-    pub areas: Vec<(NodeId, f64)>,
-}
 
 /// What the sides have lost.
 #[derive(Debug, Default)]

@@ -174,11 +174,9 @@ impl Context<'_> {
         let stiffness = sizes.iter().flatten().filter_map(|s| s.stiffness);
         let bare = self.bare(&sides.pair.points, length, sides.secondary().is_none());
         let softest = stiffness.chain(bare).fold(f64::INFINITY, f64::min);
-        let of_sides = (softest, length, steps.are_dynamic);
-        let penalty = self.penalty(&sides, part, measure, of_sides)?;
+        let penalty = self.penalty(&sides, part, measure, (softest, length, steps.are_dynamic))?;
         if part.sliding == SlidingRange::Small || part.tie.is_some() {
-            let held = sides.hold(&at, self.spaces, share);
-            held.map_err(surface_error)?;
+            sides.hold(&at, self.spaces, share).map_err(surface_error)?;
         }
         let look = probe::Look::new(&sides, part, &at).map_err(surface_error)?;
         start::not_too_deep(self.mesh, &sides, part, &look, (self.reference, size))?;

@@ -242,6 +242,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         scheme: None,
         vibrates: false,
         physics: crate::system::Physics::default(),
+        cycles: 1.0,
     };
     solid.begin(&Phase::of_step(step), &at).unwrap();
     at.time = 3.0;
