@@ -8,15 +8,6 @@ use crate::readers::inp::{Kind, Statement, compared};
 /// The part of a step in which the pressure grows on what the fluid has just reached, unless a card says otherwise.
 const PENETRATION_TIME: f64 = 0.001;
 
-/// What a card may say that is not read.
-const REFUSED: [(&str, &str); 5] = [
-    ("AMPLITUDE", "AMPLITUDE"),
-    ("IMAGINARY", "IMAGINARY"),
-    ("REAL", "REAL"),
-    ("REGIONTYPE", "REGION TYPE"),
-    ("WETTEDFRONT", "WETTED FRONT"),
-];
-
 impl Translation<'_> {
     /// *PRESSURE PENETRATION within a step: lines of a node of each surface, the pressure, and the critical one.
     pub fn penetration(&mut self, card: &Statement, step: &mut Step) {
@@ -38,13 +29,6 @@ impl Translation<'_> {
                 "give pressure 0 in its lines",
             );
             return;
-        }
-        for (parameter, shown) in REFUSED {
-            if card.has(parameter) {
-                let text = format!("*PRESSURE PENETRATION, {shown} is not supported");
-                self.error(&codes::NOT_BUILT, text, &card.place, "");
-                return;
-            }
         }
         let sides = [secondary, primary].map(|side| (side, card.place.clone()));
         let Some(sides) = self.sides_of(card, sides, false) else {

@@ -494,6 +494,13 @@ codes! {
      "to follow the motion at small strain:  sliding = \"finite\"  of the contact",
      "silence with  allow = [\"S0431\"]  where both sides are plane and wide"]
 
+    WORN_DEEP "S0432" Input "a contact that is worn deep"
+    "Wear changes the gap that a contact sees, and moves no node: the shape of the bodies behind it, their thickness and the normals \
+     stay as they were. That is right as long as depths are small against the elements and their slope along the surface is small."
+    ["a coefficient of wear in other units than pressures are", "a long way, or many cycles"]
+    ["read results up to a depth of `limit` elements", "a coarser mesh at the contact, where it resolves the pressure",
+     "a larger `limit` of  contact.wear, or  allow = [\"S0432\"]"]
+
     LEAKS "S0436" Input "a fluid that has come through a contact"
     "The fluid between the sides has reached the rim where it did not come from: the contact does not seal. The pressure \
      beyond the rim is not known, and what the contact is loaded by from then on is an assumption."
@@ -501,12 +508,6 @@ codes! {
      "`from` names some of the nodes only where the fluid is from the start, and others are at the rim, too"]
     ["look at `contact_wet` in the results for the way it took", "press the sides together harder",
      "silence with  allow = [\"S0436\"]  where it is meant to leak"]
-    WORN_DEEP "S0432" Input "a contact that is worn deep"
-    "Wear changes the gap that a contact sees, and moves no node: the shape of the bodies behind it, their thickness and the normals \
-     stay as they were. That is right as long as depths are small against the elements and their slope along the surface is small."
-    ["a coefficient of wear in other units than pressures are", "a long way, or many cycles"]
-    ["read results up to a depth of `limit` elements", "a coarser mesh at the contact, where it resolves the pressure",
-     "a larger `limit` of  contact.wear, or  allow = [\"S0432\"]"]
 
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \

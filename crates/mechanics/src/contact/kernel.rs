@@ -1,8 +1,10 @@
 //! From rows to force and stiffness: (E1) to (E6) of the room. It never asks what the segment is.
 
 mod heat;
+mod target;
 
 pub(super) use heat::Slopes;
+pub(super) use target::Target;
 
 use super::cohesion::{Cohesion, Torn};
 use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
@@ -10,6 +12,7 @@ use super::law::{ContactLaw, Eval, Multiplier, Scale, secant};
 use super::row::{Row, SeenGap, Viscous};
 use pulp::Arch;
 use signorini_geometry::tensor::Vec3;
+use target::{add_stiffness, join};
 
 /// The laws of an interface, and the numbers they scale with.
 #[derive(Clone, Copy)]
@@ -134,13 +137,6 @@ pub(super) enum Contact {
     Open,
     Stick,
     Slip,
-}
-
-/// Where results of a group go: its columns first, then the multipliers of its row.
-pub(super) struct Target<'a> {
-    pub force: &'a mut [f64],
-    /// Row-major; empty where it is not wanted.
-    pub stiffness: &'a mut [f64],
 }
 
 /// Buffers for derivatives: one entry for each column, those of the multiplier included.
@@ -665,48 +661,6 @@ impl<'a> Laws<'a> {
     }
 }
 
-/// Adds the traction of a bond, which changes with its stretch by `stretched`, and the equations of its multiplier.
-fn join(
-    row: &Row,
-    measure: f64,
-    traction: Vec3,
-    stretched: impl Fn(Vec3) -> Vec3,
-    target: &mut Target<'_>,
-) {
-    let (n, width) = (row.weights.len(), target.force.len());
-    let sliding = &row.sliding;
-    for (f, b) in target.force.iter_mut().zip(&sliding.operator) {
-        *f += measure * b.dot(traction);
-    }
-    for c in 0..width - n {
-        target.force[n + c] += measure * sliding.slip[c];
-    }
-    if target.stiffness.is_empty() {
-        return;
-    }
-    for (i, line) in target.stiffness.chunks_exact_mut(width).enumerate() {
-        if i >= n {
-            for (k, de) in line.iter_mut().zip(&sliding.dslip) {
-                *k += measure * de[i - n];
-            }
-            continue;
-        }
-        let b = sliding.operator[i];
-        for (k, de) in line.iter_mut().zip(&sliding.dslip) {
-            *k += measure * b.dot(stretched(*de));
-        }
-        for c in 0..width - n {
-            line[n + c] += measure * b[c];
-        }
-        for turn in sliding.turns() {
-            let across = measure * turn.across[i].dot(traction);
-            for (k, along) in line.iter_mut().zip(&turn.along) {
-                *k += across * along;
-            }
-        }
-    }
-}
-
 /// Adds a shear `c_t/h P Bᵀ Δd` against the slip of an increment, (E11) of `damped`.
 fn drag(row: &Row, measure: f64, work: &mut Derivatives, target: &mut Target<'_>) {
     let (n, width) = (row.weights.len(), target.force.len());
@@ -759,43 +713,6 @@ fn add_complementarity(
         let change = change * across + (nu * turned + dnormal * missed) * apart;
         for c in 0..width - n {
             target.stiffness[(n + c) * width + j] -= measure * change[c];
-        }
-    }
-}
-
-/// Adds (E4) of a pressure and a tangential traction with these slopes: lines of columns, in as many lanes as there are.
-#[inline(always)]
-fn add_stiffness(
-    row: &Row,
-    measure: f64,
-    (pressure, tangential): (f64, Vec3),
-    [dx, dy, dz, dp]: &[Vec<f64>; 4],
-    stiffness: &mut [f64],
-) {
-    let (n, width) = (row.weights.len(), dp.len());
-    let (sliding, pressed) = (&row.sliding, measure * pressure);
-    let lines = stiffness.chunks_exact_mut(width).take(n);
-    for (i, line) in lines.enumerate() {
-        let [x, y, z] = (sliding.operator[i] * measure).to_array();
-        let b = measure * row.weights[i];
-        let slopes = dx.iter().zip(dy).zip(dz).zip(dp);
-        for (k, (((dx, dy), dz), dp)) in line.iter_mut().zip(slopes) {
-            *k += (x * dx + y * dy) + (z * dz - b * dp);
-        }
-        for (k, db) in line.iter_mut().zip(&row.dweights[i * n..(i + 1) * n]) {
-            *k -= pressed * db;
-        }
-        if let Some((c, dscale)) = sliding.scaled(i) {
-            let along = measure * tangential[c];
-            for (k, d) in line.iter_mut().zip(dscale) {
-                *k += along * d;
-            }
-        }
-        for turn in sliding.turns() {
-            let across = measure * turn.across[i].dot(tangential);
-            for (k, along) in line.iter_mut().zip(&turn.along) {
-                *k += across * along;
-            }
         }
     }
 }

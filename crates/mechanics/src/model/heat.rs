@@ -17,17 +17,8 @@ pub(super) fn with_temperatures(layout: Layout, steps: &[StepPart]) -> Layout {
         .unwrap_or(layout)
 }
 
-/// Temperatures that are given: those of unknowns at the start, and of all nodes at the ends of steps.
-pub(super) fn given(
-    layout: &Layout,
-    start: Vec<f64>,
-    steps: &[StepPart],
-) -> (Arc<[(Dof, f64)]>, Option<Arc<NodalField>>) {
-    (at_start(layout, &start), temperatures(start, steps))
-}
-
-/// Temperatures of the nodes at the start and at the end of every step.
-fn temperatures(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> {
+/// Temperatures that are given to the nodes, at the start and at the end of every step.
+pub(super) fn given(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> {
     if start.is_empty() {
         return None;
     }
@@ -45,7 +36,7 @@ fn temperatures(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> 
 }
 
 /// Temperatures at the start, as unknowns.
-fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]> {
+pub(super) fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]> {
     let of_nodes = (0..).zip(temperature);
     let of_nodes = of_nodes.map(|(node, value)| (layout.temperature(node), *value));
     of_nodes.filter(|(dof, _)| *dof != NO_DOF).collect()

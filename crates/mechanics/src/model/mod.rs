@@ -167,9 +167,8 @@ impl Model {
         let mut layout = heat::with_temperatures(followers.layout(), &parts.steps);
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
-        let tol = [parts.gap_tol, parts.traction_tol];
-        let joint = contact::Steps::new(contacts, &parts.steps, &activity, tol);
-        let rubs: Vec<bool> = (0..contacts.len()).map(|k| joint.rubs(k)).collect();
+        let joint = contact::Steps::new(contacts, &parts.steps, &activity, parts.tolerances());
+        let rubs = joint.rubbing();
         let motions = steps::prescribed(mesh.nnode(), &parts.steps);
         let source = Source {
             mesh,
@@ -189,7 +188,8 @@ impl Model {
         let (modulus, shear_modulus) = moduli(bodies, &parts)?;
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
         let singles = Singles::new(&body_of_node, &followers, &parts.masses);
-        let (at_start, temperature) = heat::given(&layout, parts.temperature, &parts.steps);
+        let at_start = heat::at_start(&layout, &parts.temperature);
+        let temperature = heat::given(parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
             singles: &singles,

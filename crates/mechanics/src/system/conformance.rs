@@ -3,7 +3,7 @@
 use super::*;
 use crate::connector::Damper;
 use crate::contact::friction::{Coulomb, Stick};
-use crate::contact::law::{ContactLaw, Damping, Lagrange, Penalty, Uzawa};
+use crate::contact::law::{ContactLaw, Lagrange, Penalty, Uzawa};
 use crate::contact::tests::Random;
 use crate::contact::tests::scene::{Choice, Kind, Method, Scene};
 use crate::load::{NodalForces, Schedule};
@@ -226,7 +226,6 @@ fn specimens() -> Vec<Specimen> {
     let mesh = one("hex8");
     let dofs = || (0..24).map(|dof| (dof, 3.0)).collect::<Vec<(Dof, f64)>>();
     let rubs = |law: Box<dyn ContactLaw>| Choice {
-        law,
         friction: Some((
             Arc::new(Coulomb {
                 mu: 0.3,
@@ -234,13 +233,7 @@ fn specimens() -> Vec<Specimen> {
             }),
             Stick::Stiffness(3.0),
         )),
-        bond: false,
-        tangential: None,
-        damping: Damping::default(),
-        fluid: None,
-        gasket: None,
-        cohesion: None,
-        wear: None,
+        ..Choice::of(law)
     };
     let mut all = vec![
         solid("elastic solid", elastic),

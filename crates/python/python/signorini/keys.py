@@ -267,6 +267,78 @@ class Constraint(Table):
     with_: Key[str | None, str] = Key("The nodes of the other side, of cyclic", "text", key="with")
 
 
+class ContactAdhesion(Table):
+    """A pull between sides that are near, in place of `enforcement`: { work, range, shape }.
+
+    TOML: `contact.adhesion`.
+    """
+
+    _toml = "contact.adhesion"
+    range: Key[float | None, float] = Key(
+        "Of \"dugdale\" the gap up to which it pulls, of \"lennard-jones\" the distance of atoms that touch (length)",
+        "number > 0.0",
+    )
+    shape: Key[Literal["dugdale", "lennard-jones"], Literal["dugdale", "lennard-jones"]] = Key(
+        "Dugdale: the same tension up to the range; lennard-jones: as between half-spaces of atoms",
+        "`\"dugdale\"`, `\"lennard-jones\"`",
+        default="dugdale",
+    )
+    work: Key[float | None, float] = Key("Work of adhesion, per area (force per length)", "number > 0.0")
+
+
+class ContactCohesiveMixity(Table):
+    """The toughness between opening and shear: { bk = exponent } of Benzeggagh and Kenane, or { power = exponent }.
+
+    TOML: `contact.cohesive.mixity`.
+    """
+
+    _toml = "contact.cohesive.mixity"
+    bk: Key[float | None, float] = Key("Exponent of the share of shear in the energy", "number > 0.0")
+    power: Key[float | None, float] = Key("Exponent of the ratios of energies and toughnesses", "number > 0.0")
+
+
+class ContactCohesive(Table):
+    """With `tied`: how the joint breaks.
+
+    TOML: `contact.cohesive`.
+    """
+
+    _toml = "contact.cohesive"
+    initiation: Key[Literal["mixity", "quadratic"], Literal["mixity", "quadratic"]] = Key(
+        "Where damage begins between opening and shear: interpolated as the toughness is by `bk`, or where the squares of tractions over strengths add up to 1, as by `power`",
+        "`\"mixity\"`, `\"quadratic\"`",
+        default="mixity",
+    )
+    mixity: One[ContactCohesiveMixity] = One(
+        ContactCohesiveMixity,
+        "The toughness between opening and shear: { bk = exponent } of Benzeggagh and Kenane, or { power = exponent }",
+        "a table",
+    )
+    softening: Key[Literal["bilinear", "exponential"], Literal["bilinear", "exponential"]] = Key(
+        "Bilinear: elastic up to the strength, then linear; exponential: curved from the start, with one toughness",
+        "`\"bilinear\"`, `\"exponential\"`",
+        default="bilinear",
+    )
+    stiffness: Key[Literal["auto"] | float | list[Any], Literal["auto"] | float | Sequence[Any] | NDArray[Any]] = Key(
+        "Traction per opening before damage begins, of both directions or of each; auto: as stiff as contact, and no less than ten times what breaks at once",
+        "`\"auto\"` or number > 0.0 or list of number > 0.0, 2 of them",
+        default="auto",
+    )
+    strength: Key[list[Any] | None, Sequence[Any] | NDArray[Any]] = Key(
+        "The largest tractions along the normal and across it",
+        "list of number > 0.0, 2 of them",
+    )
+    toughness: Key[list[Any] | None, Sequence[Any] | NDArray[Any]] = Key(
+        "The energies per area that opening and shear take (force per length)",
+        "list of number > 0.0, 2 of them",
+    )
+    viscosity: Key[float, float] = Key(
+        "Time by which damage is delayed, for the sake of convergence; its work is reported",
+        "number ≥ 0.0",
+        default=0.0,
+    )
+
+
 class ContactConductanceGas(Table):
     """K/(gap + jump), of a gas or a fluid between the sides.
 
@@ -357,6 +429,17 @@ class ContactEnforcementArctangent(Table):
     )
 
 
+class ContactEnforcementDugdale(Table):
+    """Adhesion: a tension that is the same up to a gap.
+
+    TOML: `contact.enforcement.dugdale`.
+    """
+
+    _toml = "contact.enforcement.dugdale"
+    range: Key[float | None, float] = Key("The gap up to which it pulls (length)", "number > 0.0")
+    work: Key[float | None, float] = Key("Work of adhesion, per area", "number > 0.0")
+
+
 class ContactEnforcementExponential(Table):
     """A pressure that grows exponentially as the gap closes.
 
@@ -381,6 +464,17 @@ class ContactEnforcementLagrange(Table):
     _toml = "contact.enforcement.lagrange"
 
 
+class ContactEnforcementLennardJones(Table):
+    """Adhesion: the pressure between half-spaces of atoms.
+
+    TOML: `contact.enforcement.lennard_jones`.
+    """
+
+    _toml = "contact.enforcement.lennard_jones"
+    range: Key[float | None, float] = Key("The distance of atoms that touch (length)", "number > 0.0")
+    work: Key[float | None, float] = Key("Work of adhesion, per area", "number > 0.0")
+
+
 class ContactEnforcement(Table):
     """How penetration is prevented.
 
@@ -397,6 +491,11 @@ class ContactEnforcement(Table):
         "Multipliers in addition to a penalty, updated between solutions or solved for with them",
         "`\"uzawa\"`, `\"newton\"`",
     )
+    dugdale: One[ContactEnforcementDugdale] = One(
+        ContactEnforcementDugdale,
+        "Adhesion: a tension that is the same up to a gap",
+        "a table",
+    )
     exponential: One[ContactEnforcementExponential] = One(
         ContactEnforcementExponential,
         "A pressure that grows exponentially as the gap closes",
@@ -410,6 +509,11 @@ class ContactEnforcement(Table):
     lagrange: One[ContactEnforcementLagrange] = One(
         ContactEnforcementLagrange,
         "No penetration at all, by multipliers: {}",
+        "a table",
+    )
+    lennard_jones: One[ContactEnforcementLennardJones] = One(
+        ContactEnforcementLennardJones,
+        "Adhesion: the pressure between half-spaces of atoms",
         "a table",
     )
     own: Key[str | None, str] = Key("A contact law of the program that runs the case, by its name there", "text")
@@ -669,6 +773,11 @@ class Contact(Table):
 
     _toml = "contact"
     active: Key[bool, bool] = Key("Whether it acts from the first step on", "`true` or `false`", default=True)
+    adhesion: One[ContactAdhesion] = One(
+        ContactAdhesion,
+        "A pull between sides that are near, in place of `enforcement`: { work, range, shape }",
+        "a table",
+    )
     all: Key[bool | list[str] | None, bool | Sequence[str]] = Key(
         "True: every outer face may touch every other, and pairs are found; a list: those of these bodies, groups or sets",
         "`true` or `false` or list of text",
@@ -683,6 +792,7 @@ class Contact(Table):
         "`\"part\"`, `\"whole\"`",
         default="part",
     )
+    cohesive: One[ContactCohesive] = One(ContactCohesive, "With `tied`: how the joint breaks", "a table")
     conductance: Mixed[ContactConductance] = Mixed(
         ContactConductance,
         "Heat per time, area and difference of temperatures of what touches; or the ways that heat takes, which add up; absent: none",
@@ -2619,9 +2729,11 @@ if TYPE_CHECKING:
     }, total=False)
     ContactKeys = TypedDict("ContactKeys", {
         "active": bool,
+        "adhesion": ContactAdhesion | Mapping[str, Any],
         "all": bool | Sequence[str],
         "area": Literal["reference", "current", "adjacent", "opposite"],
         "basis": Literal["part", "whole"],
+        "cohesive": ContactCohesive | Mapping[str, Any],
         "conductance": float | ContactConductance | Mapping[str, Any],
         "damping": ContactDamping | Mapping[str, Any],
         "enforcement": Literal["auto"] | ContactEnforcement | Mapping[str, Any] | ContactLaw,

@@ -68,38 +68,10 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     let multiplier = scalars(|c| &c.multiplier);
     let multiplier_traction = all(|c| &c.multiplier_traction);
     let area = scalars(|c| &c.area);
-    let breaks = frame.contacts.iter().any(|c| !c.damage.is_empty());
-    let damage = |c: &ContactFrame| {
-        let none = c.nodes.len() - c.damage.len();
-        let damage = c.damage.clone();
-        damage.into_iter().chain(std::iter::repeat_n(0.0, none))
-    };
-    let damage: Vec<f64> = frame.contacts.iter().flat_map(damage).collect();
     let shear: Vec<f64> = frame.contacts.iter().flat_map(shear).collect();
     let status = frame.contacts.iter().flat_map(|c| c.status.iter());
     let status: Vec<i8> = status.map(|s| s.number()).collect();
-    // of contacts without a fluid or a gasket there is none: where others have one, theirs is 0
-    let some = |of: fn(&ContactFrame) -> &Vec<f64>| -> Vec<f64> {
-        if frame.contacts.iter().all(|c| of(c).is_empty()) {
-            return Vec::new();
-        }
-        let all = frame.contacts.iter().flat_map(|c| {
-            let known = of(c).iter().copied();
-            known.chain(std::iter::repeat(0.0)).take(c.nodes.len())
-        });
-        all.collect()
-    };
-    let more = [
-        ("contact_wet", some(|c| &c.wet)),
-        ("contact_closure", some(|c| &c.closure)),
-        ("contact_closure_max", some(|c| &c.closure_max)),
-    ];
-    let wears = frame.contacts.iter().any(|c| c.wear.is_some());
-    let worn = frame.contacts.iter().flat_map(|c| match &c.wear {
-        Some(wear) => wear.depth.clone(),
-        None => vec![0.0; c.nodes.len()],
-    });
-    let worn: Vec<f64> = worn.collect();
+    let special = special(frame);
     let mut fields = vec![
         Field::new("displacement", Values::Vector(&displacement)),
         Field::new("contact_gap", Values::Scalar(&gap)),
@@ -119,14 +91,8 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
         Field::new("contact_pair", Values::Int32(&pairs)),
         Field::new("node_id", Values::Int64(&node_ids)),
     ];
-    let more = more.iter().filter(|(_, values)| !values.is_empty());
-    fields.extend(more.map(|(name, values)| Field::new(name, Values::Scalar(values))));
-    if breaks {
-        fields.push(Field::new("contact_damage", Values::Scalar(&damage)));
-    }
-    if wears {
-        fields.push(Field::new("worn_depth", Values::Scalar(&worn)));
-    }
+    let special = special.iter();
+    fields.extend(special.map(|(name, values)| Field::new(name, Values::Scalar(values))));
     let (time, place) = ([frame.time], place(frame));
     let grid = Grid {
         points: &points,
@@ -138,6 +104,29 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
         facts: &facts(&time, &place),
     };
     vtu::encode(&grid, &Options::default())
+}
+
+/// Fields that only some contacts have: fluids, gaskets, bonds that break, sides that wear. Where others have one, theirs is 0.
+fn special(frame: &Frame) -> Vec<(&'static str, Vec<f64>)> {
+    type OfContact = fn(&ContactFrame) -> &[f64];
+    let all: [(&str, OfContact); 5] = [
+        ("contact_wet", |c| &c.wet),
+        ("contact_closure", |c| &c.closure),
+        ("contact_closure_max", |c| &c.closure_max),
+        ("contact_damage", |c| &c.damage),
+        ("worn_depth", |c| c.wear.as_ref().map_or(&[], |w| &w.depth)),
+    ];
+    let some = all
+        .into_iter()
+        .filter(|(_, of)| frame.contacts.iter().any(|c| !of(c).is_empty()));
+    some.map(|(name, of)| {
+        let values = frame.contacts.iter().flat_map(|c| {
+            let known = of(c).iter().copied();
+            known.chain(std::iter::repeat(0.0)).take(c.nodes.len())
+        });
+        (name, values.collect())
+    })
+    .collect()
 }
 
 /// The size of the tangential part of each traction: what the pressure does not explain.

@@ -33,12 +33,15 @@ enum Chosen {
     /// Cycles that are behind.
     Cycles,
     /// What is worn off a contact.
-    Worn(String, fn(&Wear) -> f64),
+    Worn(String, OfWear),
 }
+
+/// A number of what is worn off.
+type OfWear = fn(&Wear) -> f64;
 
 /// The columns of every contact that wears, after its name and a dot: volumes of the secondary and the primary side, and the largest
 /// depth of either.
-const WEAR_COLUMNS: [(&str, fn(&Wear) -> f64); 3] = [
+const WEAR_COLUMNS: [(&str, OfWear); 3] = [
     ("worn_volume", |wear| wear.volume[0]),
     ("worn_volume_primary", |wear| wear.volume[1]),
     ("worn_depth", |wear| wear.deepest),

@@ -94,7 +94,7 @@ fn a_pressure_sets_the_conductance() {
     // MOOSE, closed_gap_prescribed_pressure: harmonic means of conductivities and hardnesses
     let harmonic = |a: f64, b: f64| 2.0 * a * b / (a + b);
     let [k, hardness] = [harmonic(16.2, 210.0), harmonic(129.0, 15.0)];
-    let (pressure, flux) = (100.0, 7292.018_326_501_085);
+    let (pressure, flux) = (100.0, 7_292.018_326_501_085);
     for method in METHODS {
         let mut boxes = Boxes::new(2);
         boxes.add("a", [0.0; 3], [1.0; 3], [2, 1, 1]);

@@ -8,6 +8,7 @@ mod cohesive;
 mod conducting;
 mod coupled;
 mod damped;
+mod depths;
 mod drift;
 mod dynamic_gap;
 mod fluid;
@@ -58,6 +59,7 @@ use crate::system::{
 use asked::Asked;
 use bonds::Bonds;
 use coupled::Coupled;
+use depths::Worn;
 use judged::Judged;
 use lents::Lents;
 use memory::{DynamicGaps, Ends, History};
@@ -68,7 +70,6 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
-use wear::Worn;
 use wet::Wetting;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.

@@ -435,7 +435,7 @@ mod tests {
 
     #[test]
     fn curves_that_are_none_are_refused() {
-        let flat = vec![[0.0, 0.0], [0.1, 5.0]];
+        let flat = [[0.0, 0.0], [0.1, 5.0]];
         let refused = |loading: &[[f64; 2]], unloading: &[(f64, Vec<[f64; 2]>)]| {
             Gasket::new(loading.to_vec(), unloading.to_vec(), None, 0.0).unwrap_err()
         };

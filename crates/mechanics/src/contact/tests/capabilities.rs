@@ -3,7 +3,7 @@
 use super::next_increment;
 use super::scene::{Choice, Kind, Method, Scene};
 use crate::contact::discretization::{Averaged, BentSides, Capabilities};
-use crate::contact::law::{Damping, Penalty};
+use crate::contact::law::Penalty;
 use crate::system::{Adaptive, Order, Term};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
@@ -29,17 +29,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
         .into_iter()
         .flat_map(|kind| METHODS.map(|method| (kind, method)));
     both.map(|(kind, method)| {
-        let choice = Choice {
-            law: Box::new(Penalty),
-            friction: None,
-            bond: false,
-            tangential: None,
-            damping: Damping::default(),
-            fluid: None,
-            gasket: None,
-            cohesion: None,
-            wear: None,
-        };
+        let choice = Choice::of(Box::new(Penalty));
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();
         scene.interface.begin(&next_increment(), &start).unwrap();

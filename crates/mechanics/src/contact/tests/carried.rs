@@ -33,15 +33,8 @@ fn error(
     seed: u64,
 ) -> Option<f64> {
     let choice = Choice {
-        law,
-        friction: None,
-        bond: false,
-        tangential: None,
         damping,
-        fluid: None,
-        gasket: None,
-        cohesion: None,
-        wear: None,
+        ..Choice::of(law)
     };
     let mut scene = Scene::new(kind, method, choice, seed);
     let mut random = Random::new(seed + 77);

@@ -1,7 +1,7 @@
 //! A fluid between the sides: every method with multipliers and without, on curves and surfaces.
 
 use super::super::friction::{Coulomb, Stick};
-use super::super::law::{AugmentedNewton, ContactLaw, Damping, Lagrange, Penalty, Uzawa};
+use super::super::law::{AugmentedNewton, ContactLaw, Lagrange, Penalty, Uzawa};
 use super::super::{Critical, Fluid};
 use super::scene::{Choice, Kind, Method, Scene};
 use super::table::{Worst, methods, tangent_error};
@@ -37,13 +37,9 @@ fn choice(law: Box<dyn ContactLaw>, rubs: bool, critical: Critical) -> Choice {
         cap: f64::INFINITY,
     };
     Choice {
-        law,
         friction: rubs.then(|| (Arc::new(coulomb) as _, Stick::Stiffness(3.0))),
-        bond: false,
-        tangential: None,
-        damping: Damping::default(),
         fluid: fluid(critical),
-        gasket: None,
+        ..Choice::of(law)
     }
 }
 

@@ -102,6 +102,23 @@ pub(crate) struct Choice {
     pub wear: Option<Wears>,
 }
 
+impl Choice {
+    /// This law and nothing more.
+    pub(crate) fn of(law: Box<dyn ContactLaw>) -> Choice {
+        Choice {
+            law,
+            friction: None,
+            bond: false,
+            tangential: None,
+            damping: Damping::default(),
+            fluid: None,
+            gasket: None,
+            cohesion: None,
+            wear: None,
+        }
+    }
+}
+
 /// How the secondary side wears: depth per pressure and way, and a way that is given.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wears {

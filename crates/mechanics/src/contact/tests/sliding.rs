@@ -4,7 +4,7 @@
 use super::super::discretization::{PointToSegment, SlidingRange, SurfacePair};
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Sliding, Stick, Tresca};
 use super::super::law::{
-    AugmentedNewton, ContactLaw, Damping, Gasket, Lagrange, Multiplier, Penalty, Uzawa,
+    AugmentedNewton, ContactLaw, Gasket, Lagrange, Multiplier, Penalty, Uzawa,
 };
 use super::super::{Allowance, ContactPhase, Interface, InterfaceParts};
 use super::scene::{Choice, Kind, Method, Scene};
@@ -500,15 +500,8 @@ fn multipliers_obey_the_return_of_alart_and_curnier() {
 
 fn rub(law: Box<dyn ContactLaw>) -> Choice {
     Choice {
-        law,
         friction: Some((coulomb(), Stick::Stiffness(3.0))),
-        bond: false,
-        tangential: None,
-        damping: Damping::default(),
-        fluid: None,
-        gasket: None,
-        cohesion: None,
-        wear: None,
+        ..Choice::of(law)
     }
 }
 
@@ -575,15 +568,8 @@ fn tractions_turn_with_what_they_act_on() {
 #[test]
 fn a_loaded_memory_goes_on_bit_by_bit() {
     let tie = |law: Box<dyn ContactLaw>| Choice {
-        law,
-        friction: None,
         bond: true,
-        tangential: None,
-        damping: Damping::default(),
-        fluid: None,
-        gasket: None,
-        cohesion: None,
-        wear: None,
+        ..Choice::of(law)
     };
     let gasket = || {
         let loading = vec![[0.0, 0.0], [0.01, 0.2], [0.06, 0.5], [0.2, 2.0]];
@@ -592,7 +578,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
             Gasket::new(loading, vec![opening], None, 0.0).unwrap(),
         ))
     };
-    let choices: [&dyn Fn() -> Choice; 7] = [
+    let choices: [&dyn Fn() -> Choice; 8] = [
         &gasket,
         &|| rub(Box::new(Penalty)),
         &|| rub(Box::new(Uzawa)),
@@ -657,17 +643,7 @@ fn bits(scene: &Scene) -> String {
 #[test]
 fn planes_of_an_increment_are_those_at_its_start() {
     let gaps = |method: Method| -> [Vec<f64>; 2] {
-        let choice = Choice {
-            law: Box::new(Penalty),
-            friction: None,
-            bond: false,
-            tangential: None,
-            damping: Damping::default(),
-            fluid: None,
-            gasket: None,
-            cohesion: None,
-            wear: None,
-        };
+        let choice = Choice::of(Box::new(Penalty));
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);
         let start = scene.state.clone();

@@ -3,8 +3,8 @@
 
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
 use super::super::law::{
-    Arctangent, AugmentedNewton, ContactLaw, Damping, Exponential, Gasket, Lagrange, Multiplier,
-    Penalty, Table, Uzawa,
+    Arctangent, AugmentedNewton, ContactLaw, Exponential, Gasket, Lagrange, Multiplier, Penalty,
+    Table, Uzawa,
 };
 use super::scene::{Choice, Kind, Method, PENALTY, Scene};
 use super::{Random, largest, next_increment};
@@ -215,15 +215,11 @@ fn check(
     let mut name = String::new();
     for seed in 1..=12 {
         let choice = Choice {
-            law: laws().swap_remove(law),
             friction: friction.clone(),
             bond,
             tangential,
-            damping: Damping::default(),
-            fluid: None,
             gasket: (law == GASKET).then(|| Arc::new(gasket())),
-            cohesion: None,
-            wear: None,
+            ..Choice::of(laws().swap_remove(law))
         };
         let multiplier = choice.law.multiplier();
         let rubs = friction.is_some();
@@ -359,15 +355,8 @@ fn multipliers_that_stick_act_as_they_hold() {
             let exact = laws().into_iter().filter(|l| l.multiplier().is_unknown());
             for law in exact {
                 let choice = Choice {
-                    law,
                     friction: Some((Arc::new(Tresca(1e3)), Stick::Stiffness(1.0))),
-                    bond: false,
-                    tangential: None,
-                    damping: Damping::default(),
-                    fluid: None,
-                    gasket: None,
-                    cohesion: None,
-                    wear: None,
+                    ..Choice::of(law)
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
@@ -398,21 +387,11 @@ fn multipliers_that_stick_act_as_they_hold() {
 
 #[test]
 fn a_pressure_that_acts_at_a_distance_is_coupled() {
-    let choice = Choice {
-        law: Box::new(Exponential {
-            p0: 1.0,
-            c0: 1.0,
-            within: f64::INFINITY,
-        }),
-        friction: None,
-        bond: false,
-        tangential: None,
-        damping: Damping::default(),
-        fluid: None,
-        gasket: None,
-        cohesion: None,
-        wear: None,
-    };
+    let choice = Choice::of(Box::new(Exponential {
+        p0: 1.0,
+        c0: 1.0,
+        within: f64::INFINITY,
+    }));
     let kind = Kind::Elements("quad4");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);
     let mut up = vec![0.0; scene.layout.ndof()];

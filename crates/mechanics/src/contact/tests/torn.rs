@@ -2,7 +2,7 @@
 
 use super::super::cohesion::{Bilinear, Cohesion, CohesiveLaw, Exponential, Initiation, Mixity};
 use super::super::friction::{Coulomb, Stick};
-use super::super::law::{Damping, Penalty};
+use super::super::law::Penalty;
 use super::scene::{Choice, Kind, Method, PENALTY, Scene};
 use super::table::{Worst, balance, methods, tangent_error};
 use crate::system::Order;
@@ -38,12 +38,10 @@ pub(super) fn torn(cohesion: Cohesion, rubs: bool) -> Choice {
         cap: f64::INFINITY,
     };
     Choice {
-        law: Box::new(Penalty),
         friction: rubs.then(|| (Arc::new(friction) as _, Stick::Stiffness(PENALTY))),
         bond: true,
-        tangential: None,
-        damping: Damping::default(),
         cohesion: Some(cohesion),
+        ..Choice::of(Box::new(Penalty))
     }
 }
 

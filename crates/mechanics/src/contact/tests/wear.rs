@@ -1,6 +1,5 @@
 //! Wear: tangents of every method with every law, and what is taken off.
 
-use super::super::law::Damping;
 use super::Random;
 use super::scene::{Choice, Kind, Method, Scene, Wears};
 use super::table::{Friction, frictions, laws, methods, tangent_error};
@@ -27,12 +26,9 @@ fn scene(
     seed: u64,
 ) -> Scene {
     let choice = Choice {
-        law: laws().swap_remove(law),
         friction: friction.clone(),
-        bond: false,
-        tangential: None,
-        damping: Damping::default(),
         wear: Some(wear),
+        ..Choice::of(laws().swap_remove(law))
     };
     let mut scene = Scene::with_past(kind, method, choice, seed);
     // where a pressure is zero and the gap is, wear has a corner

@@ -24,7 +24,7 @@ impl Steps<'_> {
             let own = changes
                 .iter()
                 .filter(|change| change.contact == sides.contact);
-            now = own.filter_map(|change| change.fluid).last().unwrap_or(now);
+            now = own.rev().find_map(|change| change.fluid).unwrap_or(now);
             pressures.push([before, now]);
             before = now;
         }

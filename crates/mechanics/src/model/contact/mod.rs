@@ -113,6 +113,11 @@ impl<'a> Steps<'a> {
         phases
     }
 
+    /// Which contacts have friction in any step.
+    pub fn rubbing(&self) -> Vec<bool> {
+        (0..self.parts.len()).map(|k| self.rubs(k)).collect()
+    }
+
     /// Whether a contact has friction in any step.
     pub fn rubs(&self, contact: usize) -> bool {
         let at_first = self

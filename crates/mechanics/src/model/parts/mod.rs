@@ -57,6 +57,11 @@ pub struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
+    /// What counts as open and as unloaded: a gap and a traction.
+    pub(super) fn tolerances(&self) -> [f64; 2] {
+        [self.gap_tol, self.traction_tol]
+    }
+
     /// A model without anything in it yet.
     #[must_use]
     pub fn new(mesh: &'a Mesh, space: Idealisation) -> Self {

@@ -79,8 +79,8 @@ pub struct HeatParts<'a> {
 
 /// Heat in the cells of one material.
 pub struct HeatInBody {
+    body: String,
     name: String,
-    term: String,
     layout: Layout,
     reference: Arc<[Vec3]>,
     space: Idealisation,
@@ -138,8 +138,8 @@ impl HeatInBody {
         } = parts;
         let blocks = cells::blocks(name, mesh, cells, layout.ndim(), reduced)?;
         Ok(Self {
-            name: name.to_owned(),
-            term: format!("heat in {name}"),
+            body: name.to_owned(),
+            name: format!("heat in {name}"),
             layout,
             reference,
             space,
@@ -235,7 +235,7 @@ impl HeatInBody {
     ) -> Result<Place, TermError> {
         let place = block.place(point, &s.x, (self.space, &s.profile), &mut s.gradient);
         place.map_err(|ratio| TermError::Inverted {
-            body: self.name.clone(),
+            body: self.body.clone(),
             element: block.label(cell),
             ratio,
         })
@@ -268,7 +268,7 @@ impl HeatInBody {
         }
         let inverse = f.inverse().filter(|(_, ratio)| *ratio > 0.0);
         let (inverse, ratio) = inverse.ok_or_else(|| TermError::Inverted {
-            body: self.name.clone(),
+            body: self.body.clone(),
             element: block.label(cell),
             ratio: f.determinant(),
         })?;
@@ -401,7 +401,7 @@ impl HeatInBody {
     ) -> Result<(f64, &'b [f64]), TermError> {
         let place = block.mass_point(point, &s.x, (self.space, &s.profile));
         place.map_err(|ratio| TermError::Inverted {
-            body: self.name.clone(),
+            body: self.body.clone(),
             element: block.label(cell),
             ratio,
         })
@@ -453,7 +453,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 impl Term for HeatInBody {
     fn name(&self) -> &str {
-        &self.term
+        &self.name
     }
 
     fn properties(&self) -> Properties {
@@ -496,7 +496,7 @@ impl Term for HeatInBody {
             return Err(TermError::Refused {
                 message: format!(
                     "body \"{}\" stores no heat, but the step is transient: its material needs a specific heat and a density",
-                    self.name
+                    self.body
                 ),
             });
         }
@@ -550,7 +550,7 @@ impl Term for HeatInBody {
                     what: format!(
                         "the heat of element {} of body \"{}\"",
                         block.label(cell),
-                        self.name
+                        self.body
                     ),
                 });
             }
@@ -626,12 +626,12 @@ impl Stored for HeatInBody {
     }
 
     fn save(&self, out: &mut Archive) {
-        out.put(format!("heat.{}", self.name), &[self.stored]);
+        out.put(format!("heat.{}", self.body), &[self.stored]);
     }
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
         let mut stored = [0.0];
-        from.get(&format!("heat.{}", self.name), &mut stored)?;
+        from.get(&format!("heat.{}", self.body), &mut stored)?;
         [self.stored] = stored;
         Ok(())
     }

@@ -163,6 +163,7 @@ fn a_tie_keeps_closes_or_pulls_its_offset() {
                 offset,
                 within,
                 penalty_tangential: None,
+                cohesion: None,
             });
         });
     }
@@ -180,6 +181,7 @@ fn a_tie_keeps_closes_or_pulls_its_offset() {
                 offset: TieOffset::Pull,
                 within: None,
                 penalty_tangential: Some(2.0),
+                cohesion: None,
             });
         },
     );
