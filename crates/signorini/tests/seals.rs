@@ -56,7 +56,7 @@ fn solved(text: &str) -> Run {
     run
 }
 
-/// A flange that hardly bends on elastic springs, under a force beside its middle, and a fluid from its left end.
+/// A flange that hardly bends on elastic springs, under an eccentric force, with a fluid from its left end.
 fn flange(n: usize, method: &str, pressure: f64) -> Run {
     let on = Blocks::default().with("flange", [n, 1], [[0.0, 10.0], [0.0, 1.0]]);
     solved(&on.case(&format!(

@@ -14,8 +14,9 @@ use super::step::{Cycle, Jump, Step, Turns};
 use super::stepping::{Outcome, RunError, Stepper};
 use crate::system::{Archive, Frame, System};
 
-/// By how much N may grow; what is left of the number that would just do.
+/// The largest factor by which N grows from one jump to the next.
 const GROWTH: f64 = 3.0;
+/// The factor on the N that would just meet the tolerance.
 const SAFETY: f64 = 0.9;
 
 /// Increments that wait until the cycle is taken.

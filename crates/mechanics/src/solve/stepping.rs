@@ -290,7 +290,7 @@ impl Stepper {
         Ok(Outcome::Finished)
     }
 
-    /// Runs the present step, or what is left of it, and goes on to the next.
+    /// Runs the rest of the present step and goes on to the next.
     pub(super) fn one_step(
         &mut self,
         system: &mut System,

@@ -109,7 +109,7 @@ impl Bilinear {
         })
     }
 
-    /// The stiffness of both directions with which δ_f is at least so many times δ₀ in both pure modes.
+    /// The stiffness of both directions with which δ_f is at least this multiple of δ₀ in both pure modes.
     #[must_use]
     pub fn stiff_enough(strength: [f64; 2], toughness: [f64; 2], times: f64) -> f64 {
         let of = |mode: usize| times * strength[mode] * strength[mode] / (2.0 * toughness[mode]);

@@ -11,7 +11,7 @@
 //! weights of the row over their sum, A the areas of nodes at the start, whether they are covered or not. Weights are unchanged:
 //! forces act where the nodes are.
 //!
-//! Depths of the primary side are found anew for every iterate, so that residuals know what has slid where. Tangents do not know how
+//! Depths of the primary side are updated in every iterate, so that residuals account for what has slid where. Tangents leave out how
 //! they change: that is their slope along the surface, which has to be small for (W1) to hold.
 //!
 //! The way s is that of the row from where it was at the start of the increment, without what sticking yields, or a distance that
