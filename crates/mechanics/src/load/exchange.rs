@@ -2,8 +2,8 @@ use super::course::Clock;
 use super::local::gather;
 use super::{Region, Schedule};
 use crate::system::{
-    Dof, Idealisation, Layout, Order, Part, PatternSink, Phase, Properties, Role, Sink, State,
-    Symmetry, Term, TermError, Work,
+    Dof, Idealisation, Layout, LocalHeat, Order, Part, PatternSink, Phase, Properties, Role, Sink,
+    State, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
@@ -39,12 +39,8 @@ pub(super) struct Exchange {
 #[derive(Default)]
 struct Scratch {
     x: Vec<Vec3>,
-    dofs: Vec<Dof>,
-    motions: Vec<Dof>,
     now: Vec<f64>,
-    force: Vec<f64>,
-    stiffness: Vec<f64>,
-    coupling: Vec<f64>,
+    heat: LocalHeat,
 }
 
 impl Exchange {
@@ -75,32 +71,11 @@ impl Exchange {
             false => &self.reference,
         };
         gather(places, nodes, &mut s.x);
-        s.dofs.clear();
+        s.heat.begin(&self.layout, nodes);
+        s.heat.clear(order, self.deforms);
+        let value = |&dof: &Dof| trial.u.get(dof as usize).copied().unwrap_or_default();
         s.now.clear();
-        s.motions.clear();
-        for &node in nodes {
-            let dof = self.layout.temperature(node);
-            s.dofs.push(dof);
-            let value = trial.u.get(dof as usize).copied();
-            s.now.push(value.unwrap_or_default());
-            let axes = 0..self.layout.ndim();
-            s.motions
-                .extend(axes.map(|axis| self.layout.node(node, axis)));
-        }
-        let n = s.dofs.len();
-        let (square, across) = match order {
-            Order::Residual => (0, 0),
-            Order::Tangent if self.deforms => (n * n, n * s.motions.len()),
-            Order::Tangent => (n * n, 0),
-        };
-        for (list, length) in [
-            (&mut s.force, n),
-            (&mut s.stiffness, square),
-            (&mut s.coupling, across),
-        ] {
-            list.clear();
-            list.resize(length, 0.0);
-        }
+        s.now.extend(s.heat.dofs.iter().map(value));
     }
 }
 
@@ -142,17 +117,10 @@ impl Term for Exchange {
         if self.clock.is_away() || !self.is_solved {
             return;
         }
-        let layout = &self.layout;
+        let mut heat = LocalHeat::default();
         for (_, piece) in self.faces.pieces() {
-            let nodes = piece.nodes.iter();
-            let dofs: Vec<Dof> = nodes.map(|&node| layout.temperature(node)).collect();
-            out.interface(&dofs);
-            if self.deforms {
-                let axes = 0..layout.ndim();
-                let of_node = |&node| axes.clone().map(move |axis| layout.node(node, axis));
-                let motions: Vec<Dof> = piece.nodes.iter().flat_map(of_node).collect();
-                out.coupling(&dofs, &motions);
-            }
+            heat.begin(&self.layout, piece.nodes);
+            heat.announce(self.deforms, out);
         }
     }
 
@@ -189,7 +157,8 @@ impl Term for Exchange {
         let s = work.of::<Scratch>();
         for piece in patch.pieces(first, last) {
             self.begin_piece(piece.nodes, trial, order, s);
-            let n = s.dofs.len();
+            let heat = &mut s.heat;
+            let n = heat.dofs.len();
             for sample in patch.samples() {
                 let tangents = sample.tangents(patch.space(), &s.x);
                 let directed = tangents.0.cross(tangents.1);
@@ -198,19 +167,20 @@ impl Term for Exchange {
                 let shape = sample.shape;
                 let temperature: f64 = shape.iter().zip(&s.now).map(|(n, t)| n * t).sum();
                 let [flux, slope] = self.through.at(temperature);
-                for (to, n) in s.force.iter_mut().zip(shape) {
+                for (to, n) in heat.flow.iter_mut().zip(shape) {
                     *to += weight * area * flux * n;
                 }
-                let rows = s.stiffness.chunks_exact_mut(n.max(1)).zip(shape);
+                let rows = heat.stiffness.chunks_exact_mut(n.max(1)).zip(shape);
                 for (row, own) in rows {
                     let own = weight * area * slope * own;
                     row.iter_mut().zip(shape).for_each(|(to, n)| *to += own * n);
                 }
-                let Some(normal) = directed.normalized().filter(|_| !s.coupling.is_empty()) else {
+                let Some(normal) = directed.normalized().filter(|_| !heat.coupling.is_empty())
+                else {
                     continue;
                 };
                 let ndim = self.layout.ndim();
-                for (row, own) in s.coupling.chunks_exact_mut(n * ndim).zip(shape) {
+                for (row, own) in heat.coupling.chunks_exact_mut(n * ndim).zip(shape) {
                     let nodes = row.chunks_exact_mut(ndim).zip(shape).zip(sample.dshape);
                     for ((to, shape), dshape) in nodes {
                         let grows =
@@ -220,10 +190,7 @@ impl Term for Exchange {
                     }
                 }
             }
-            out.add(&s.dofs, &s.force, &s.stiffness);
-            if !s.coupling.is_empty() {
-                out.couple(&s.dofs, &s.motions, &s.coupling);
-            }
+            heat.add_to(out);
         }
         Ok(())
     }

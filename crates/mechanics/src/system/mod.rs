@@ -57,6 +57,7 @@ mod idealisation;
 mod impulsive;
 mod internal_forces;
 mod layout;
+mod local_heat;
 mod loose;
 mod motion;
 mod moving;
@@ -92,6 +93,7 @@ pub use frame::{
 pub use idealisation::{Idealisation, profile_at};
 pub use impulsive::{Acts, Impulsive, NearRow, Rubbing};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
+pub use local_heat::LocalHeat;
 pub use loose::Course;
 pub use motion::{Between, BodyRates, BodyWay, Leapfrog, MassScaling, Rates, Scheme};
 pub use phase::{Heat, Increment, Phase, Physics, StepContext};

@@ -32,13 +32,13 @@ mod cells;
 use super::error::SolidError;
 use crate::material::{Conductor, pulled_back};
 use crate::system::{
-    Activity, Archive, ArchiveError, Capabilities, Dof, Frame, Heat, Idealisation, Layout, Order,
-    Part, PatternSink, Phase, Properties, Sink, State, StepContext, Stored, Symmetry, Term,
-    TermError, Work,
+    Activity, Archive, ArchiveError, Capabilities, Dof, Frame, Heat, Idealisation, Layout,
+    LocalHeat, Order, Part, PatternSink, Phase, Properties, Sink, State, StepContext, Stored,
+    Symmetry, Term, TermError, Work,
 };
 use cells::{Block, Place};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
+use signorini_geometry::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
 /// Where a body stores heat.
@@ -108,13 +108,17 @@ struct Scratch {
     profile: Vec<f64>,
     now: Vec<f64>,
     before: Vec<f64>,
-    dofs: Vec<Dof>,
-    motions: Vec<Dof>,
     gradient: Vec<Vec3>,
-    force: Vec<f64>,
-    stiffness: Vec<f64>,
-    coupling: Vec<f64>,
+    heat: LocalHeat,
     shares: Vec<f64>,
+}
+
+impl Scratch {
+    /// The gradient of the temperature at the start, at the point that was placed last.
+    fn steepness(&self) -> Vec3 {
+        let nodes = self.gradient.iter().zip(&self.now);
+        nodes.fold(Vec3::ZERO, |sum, (g, t)| sum + *g * *t)
+    }
 }
 
 impl HeatInBody {
@@ -199,28 +203,21 @@ impl HeatInBody {
     /// Takes what the nodes of a cell have.
     fn gather(&self, nodes: &[NodeId], trial: &State, s: &mut Scratch) {
         let at = |values: &[f64], dof: Dof| values.get(dof as usize).copied().unwrap_or_default();
-        s.dofs.clear();
-        s.motions.clear();
+        s.heat.begin(&self.layout, nodes);
         for list in [&mut s.u, &mut s.profile, &mut s.now, &mut s.before] {
             list.clear();
         }
         s.x.clear();
-        let ndim = self.layout.ndim();
+        s.now
+            .extend(s.heat.dofs.iter().map(|&dof| at(&trial.u, dof)));
+        s.u.extend(s.heat.motions.iter().map(|&dof| at(&trial.u, dof)));
         for &node in nodes {
-            let dof = self.layout.temperature(node);
-            s.dofs.push(dof);
-            s.now.push(at(&trial.u, dof));
             s.before.push(at(&self.before, node));
             let x = self.reference.get(node as usize).copied();
             s.x.push(x.unwrap_or_default());
             if let Some(profile) = &self.profile {
                 s.profile
                     .push(profile.get(node as usize).copied().unwrap_or(1.0));
-            }
-            for axis in 0..ndim {
-                let dof = self.layout.node(node, axis);
-                s.motions.push(dof);
-                s.u.push(at(&trial.u, dof));
             }
         }
     }
@@ -275,13 +272,13 @@ impl HeatInBody {
         Ok((inverse, f, ratio))
     }
 
-    /// k and its derivative in the frame, at a temperature.
-    fn conductivity(&self, temperature: f64) -> [Sym3; 2] {
-        let both = self.conductor.conductivity(temperature);
-        if self.conductor.is_isotropic() {
-            return both;
-        }
-        both.map(|k| k.congruence(self.axes))
+    /// The conductivity against the gradient at the start, and its derivative with respect to the temperature.
+    fn conductivity(&self, temperature: f64, (inverse, f, ratio): (Mat3, Mat3, f64)) -> [Mat3; 2] {
+        let turns = !self.conductor.is_isotropic();
+        self.conductor.conductivity(temperature).map(|k| {
+            let k = if turns { k.congruence(self.axes) } else { k };
+            pulled_back(k, turns && self.deforms(), f, inverse, ratio).to_mat3()
+        })
     }
 
     /// Adds what a cell conducts, (E32) to (E34).
@@ -292,26 +289,21 @@ impl HeatInBody {
         order: Order,
         s: &mut Scratch,
     ) -> Result<(), TermError> {
-        let turns = !self.conductor.is_isotropic();
-        let n = s.dofs.len();
+        let n = s.heat.dofs.len();
         for point in 0..block.npoint() {
             let place = self.place(block, cell, point, s)?;
-            let (inverse, f, ratio) = self.deformation(block, cell, s, &place)?;
+            let deformed = self.deformation(block, cell, s, &place)?;
             let shape = place.shape(block);
-            let temperature = dot(shape, &s.now);
-            let both = self.conductivity(temperature);
-            let [d, slope] =
-                both.map(|k| pulled_back(k, turns && self.deforms(), f, inverse, ratio).to_mat3());
-            let steep = s.gradient.iter().zip(&s.now);
-            let steep = steep.fold(Vec3::ZERO, |sum, (g, t)| sum + *g * *t);
+            let [d, slope] = self.conductivity(dot(shape, &s.now), deformed);
+            let (inverse, steep) = (deformed.0, s.steepness());
             let (flow, change) = (d * steep, slope * steep);
-            for (to, g) in s.force.iter_mut().zip(&s.gradient) {
+            for (to, g) in s.heat.flow.iter_mut().zip(&s.gradient) {
                 *to += place.weight * g.dot(flow);
             }
             if order == Order::Residual {
                 continue;
             }
-            for (row, g) in s.stiffness.chunks_exact_mut(n).zip(&s.gradient) {
+            for (row, g) in s.heat.stiffness.chunks_exact_mut(n).zip(&s.gradient) {
                 let (through, changes) = (d * *g * place.weight, place.weight * g.dot(change));
                 for ((to, other), shape) in row.iter_mut().zip(&s.gradient).zip(shape) {
                     *to += through.dot(*other) + changes * shape;
@@ -336,6 +328,7 @@ impl HeatInBody {
         let ndim = self.layout.ndim();
         let columns = inverse.transpose().rows;
         let rows = s
+            .heat
             .coupling
             .chunks_exact_mut((s.gradient.len() * ndim).max(1));
         for (row, own) in rows.zip(&s.gradient) {
@@ -360,14 +353,14 @@ impl HeatInBody {
         order: Order,
         s: &mut Scratch,
     ) -> Result<(), TermError> {
-        let n = s.dofs.len();
+        let n = s.heat.dofs.len();
         if self.storage == Storage::Lumped {
             self.shares(block, cell, s)?;
             for (k, share) in s.shares.iter().enumerate() {
                 let [heat, slope] = self.conductor.stored([s.before[k], s.now[k]]);
-                s.force[k] += share * heat / self.dt;
+                s.heat.flow[k] += share * heat / self.dt;
                 if order == Order::Tangent {
-                    s.stiffness[k * n + k] += share * slope / self.dt;
+                    s.heat.stiffness[k * n + k] += share * slope / self.dt;
                 }
             }
             return Ok(());
@@ -377,13 +370,13 @@ impl HeatInBody {
             let ends = [dot(shape, &s.before), dot(shape, &s.now)];
             let [heat, slope] = self.conductor.stored(ends);
             let (heat, slope) = (weight * heat / self.dt, weight * slope / self.dt);
-            for (to, own) in s.force.iter_mut().zip(shape) {
+            for (to, own) in s.heat.flow.iter_mut().zip(shape) {
                 *to += own * heat;
             }
             if order == Order::Residual {
                 continue;
             }
-            for (row, own) in s.stiffness.chunks_exact_mut(n).zip(shape) {
+            for (row, own) in s.heat.stiffness.chunks_exact_mut(n).zip(shape) {
                 let own = own * slope;
                 row.iter_mut().zip(shape).for_each(|(to, n)| *to += own * n);
             }
@@ -410,7 +403,7 @@ impl HeatInBody {
     /// The volume of a cell that belongs to each of its nodes, in the proportions of `∫ N_k² dV`.
     fn shares(&self, block: &Block, cell: usize, s: &mut Scratch) -> Result<(), TermError> {
         s.shares.clear();
-        s.shares.resize(s.dofs.len(), 0.0);
+        s.shares.resize(s.heat.dofs.len(), 0.0);
         let mut volume = 0.0;
         for point in 0..block.nmass() {
             let (weight, shape) = self.mass_point(block, cell, point, s)?;
@@ -431,10 +424,9 @@ impl HeatInBody {
         let (mut total, mut scratch) = (0.0, Scratch::default());
         for chunk in 0..self.nchunk() {
             self.each(chunk, state, &mut scratch, |block, cell, s| {
-                s.force.clear();
-                s.force.resize(s.dofs.len(), 0.0);
+                s.heat.clear(Order::Residual, false);
                 self.store(block, cell, Order::Residual, s)?;
-                total += s.force.iter().sum::<f64>() * self.dt;
+                total += s.heat.flow.iter().sum::<f64>() * self.dt;
                 Ok(())
             })?;
         }
@@ -472,20 +464,11 @@ impl Term for HeatInBody {
         if !self.step.physics.has_heat() {
             return;
         }
-        let (mut dofs, mut motions) = (Vec::new(), Vec::new());
+        let mut heat = LocalHeat::default();
         for block in &self.blocks {
             for (_, nodes) in block.cells().filter(|(id, _)| self.is_active(*id)) {
-                dofs.clear();
-                motions.clear();
-                dofs.extend(nodes.iter().map(|&node| self.layout.temperature(node)));
-                out.interface(&dofs);
-                if self.deforms() {
-                    let axes = 0..self.layout.ndim();
-                    let of_node =
-                        |&node| axes.clone().map(move |axis| self.layout.node(node, axis));
-                    motions.extend(nodes.iter().flat_map(of_node));
-                    out.coupling(&dofs, &motions);
-                }
+                heat.begin(&self.layout, nodes);
+                heat.announce(self.deforms(), out);
             }
         }
     }
@@ -527,25 +510,13 @@ impl Term for HeatInBody {
     ) -> Result<(), TermError> {
         let scratch = work.of::<Scratch>();
         self.each(chunk, trial, scratch, |block, cell, s| {
-            let n = s.dofs.len();
-            let (square, across) = match order {
-                Order::Residual => (0, 0),
-                Order::Tangent if self.deforms() => (n * n, n * s.motions.len()),
-                Order::Tangent => (n * n, 0),
-            };
-            for (list, length) in [
-                (&mut s.force, n),
-                (&mut s.stiffness, square),
-                (&mut s.coupling, across),
-            ] {
-                list.clear();
-                list.resize(length, 0.0);
-            }
+            let n = s.heat.dofs.len();
+            s.heat.clear(order, self.deforms());
             self.conduct(block, cell, order, s)?;
             if self.is_transient() {
                 self.store(block, cell, order, s)?;
             }
-            if !s.force.iter().all(|f| f.is_finite()) {
+            if !s.heat.flow.iter().all(|f| f.is_finite()) {
                 return Err(TermError::NotFinite {
                     what: format!(
                         "the heat of element {} of body \"{}\"",
@@ -554,13 +525,10 @@ impl Term for HeatInBody {
                     ),
                 });
             }
-            out.add(&s.dofs, &s.force, &s.stiffness);
-            if across > 0 {
-                out.couple(&s.dofs, &s.motions, &s.coupling);
-            }
+            s.heat.add_to(out);
             let far = s.now.iter().fold(0.0, |far: f64, t| far.max(t.abs()));
             let size = block.rigidity(&s.x, (self.space, &s.profile)) * self.conductor.largest();
-            out.uncertain(&s.dofs, f64::EPSILON * n as f64 * size * far);
+            out.uncertain(&s.heat.dofs, f64::EPSILON * n as f64 * size * far);
             Ok(())
         })
     }
@@ -581,14 +549,11 @@ impl Term for HeatInBody {
                 flux.clear();
                 for point in 0..block.npoint() {
                     let place = self.place(block, cell, point, s)?;
-                    let (inverse, f, ratio) = self.deformation(block, cell, s, &place)?;
-                    let [k, _] = self.conductivity(dot(place.shape(block), &s.now));
-                    let turns = !self.conductor.is_isotropic() && self.deforms();
-                    let d = pulled_back(k, turns, f, inverse, ratio).to_mat3();
-                    let steep = s.gradient.iter().zip(&s.now);
-                    let steep = steep.fold(Vec3::ZERO, |sum, (g, t)| sum + *g * *t);
+                    let deformed = self.deformation(block, cell, s, &place)?;
+                    let [d, _] = self.conductivity(dot(place.shape(block), &s.now), deformed);
+                    let (_, f, ratio) = deformed;
                     // q = F Q/J, through present areas
-                    flux.push(f * (d * steep) * (-ratio.recip()));
+                    flux.push(f * (d * s.steepness()) * (-ratio.recip()));
                 }
                 block.carry_to_nodes(cell, &flux, frame);
                 Ok(())
