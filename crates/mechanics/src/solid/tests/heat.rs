@@ -57,27 +57,13 @@ impl Hot {
         let layout = Layout::new(ndim, mesh.nnode(), 0);
         let layout = layout.with_field(Layout::TEMPERATURE).unwrap();
         let cells: Vec<_> = mesh.cells(ndim).collect();
-        let reference: Arc<[Vec3]> = mesh.points.clone().into();
         let ends = vec![vec![0.0; mesh.nnode()]];
-        let mut solid = Solid::new(SolidParts {
-            name: "body",
-            mesh,
-            reference: reference.clone(),
-            cells: &cells,
-            layout,
-            space: wish.space,
-            profile: None,
-            material,
-            integration: wish.integration,
-            locking: wish.locking,
-            temperature: Some(Arc::new(NodalField { ends })),
-            linear_temperatures: false,
-            at_nodes: Default::default(),
-            initial: &[],
-            axes: None,
-        })
-        .ok()?;
-        solid.locking(wish.kinematics).ok()?;
+        let given = Some(Arc::new(NodalField { ends }));
+        let Body {
+            mut solid,
+            reference,
+            ..
+        } = body_in(layout, mesh, material, wish, given).ok()?;
         let mut heat = HeatInBody::new(HeatParts {
             name: "body",
             mesh,

@@ -112,9 +112,19 @@ impl Wish {
 }
 
 fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, SolidError> {
-    let ndim = wish.space.ndim();
-    let layout = Layout::new(ndim, mesh.nnode(), 0);
-    let cells: Vec<_> = mesh.cells(ndim).collect();
+    let layout = Layout::new(wish.space.ndim(), mesh.nnode(), 0);
+    body_in(layout, mesh, material, wish, None)
+}
+
+/// A body in a layout that may have temperatures, with those that are given.
+fn body_in(
+    layout: Layout,
+    mesh: &Mesh,
+    material: Box<dyn Material>,
+    wish: &Wish,
+    temperature: Option<Arc<NodalField>>,
+) -> Result<Body, SolidError> {
+    let cells: Vec<_> = mesh.cells(wish.space.ndim()).collect();
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
     let mut solid = Solid::new(SolidParts {
         name: "body",
@@ -127,7 +137,7 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         material,
         integration: wish.integration,
         locking: wish.locking,
-        temperature: None,
+        temperature,
         linear_temperatures: false,
         at_nodes: Default::default(),
         initial: &[],
