@@ -1,5 +1,6 @@
 //! What an audit is to know of a contact.
 
+use super::means::mean;
 use super::{Interface, Measure, Multiplier, State};
 use crate::audit::{self, Rules, Sides};
 use crate::contact::friction::Sliding;
@@ -135,7 +136,6 @@ impl Interface {
                 }
             }
         }
-        let mean = |(sum, weights): (f64, f64)| if weights > 0.0 { sum / weights } else { 0.0 };
         sums.into_iter().map(mean).collect()
     }
 }

@@ -15,6 +15,7 @@
 //! Limits: P acts where a point meets the other side. A face that is apart from it, further than the reach, takes a load of its own.
 
 use super::front::Passages;
+use super::means::mean;
 use super::wet::{Critical, Fluid, Wet, Wetting};
 use super::{Interface, Order, Rows, Scratch, Sink, State, TermError, Verdict};
 use crate::contact::row::RowOrder;
@@ -288,7 +289,6 @@ impl Interface {
                 of.on_secondary.moment += push.moment * (pressure * self.area(row));
             }
         }
-        let mean = |(sum, share): (f64, f64)| if share > 0.0 { sum / share } else { 0.0 };
         report.wet = wet.into_iter().zip(shares).map(mean).collect();
         let leak = self.wetting.leak().filter(|_| self.is_active());
         of.leak = leak.and_then(|row| {

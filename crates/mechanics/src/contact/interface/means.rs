@@ -2,6 +2,11 @@
 
 use signorini_geometry::tensor::Vec3;
 
+/// The mean of a weighted sum; 0 where nothing was added.
+pub(super) fn mean((sum, weight): (f64, f64)) -> f64 {
+    if weight > 0.0 { sum / weight } else { 0.0 }
+}
+
 /// Sums over the rows around each node, with its shares of their areas as weights.
 pub(super) struct Means {
     /// Of rows that meet something, and of all: pressures are means over these, too, so that they add up to the force.

@@ -2,6 +2,7 @@
 //!
 //! It is frozen in an increment: which branch of the law a row is on depends on what was accepted, and not on the iterate before.
 
+use super::means::mean;
 use super::{Interface, Lambda, Rows, State, TermError};
 use crate::contact::row::RowOrder;
 use crate::system::ContactFrame;
@@ -49,7 +50,6 @@ impl Interface {
                 shares[k] += share;
             }
         }
-        let mean = |(sum, share): (f64, f64)| if share > 0.0 { sum / share } else { 0.0 };
         let means = |sums: Vec<f64>| sums.into_iter().zip(shares.iter().copied()).map(mean);
         report.closure = means(now).collect();
         report.closure_max = means(most).collect();

@@ -17,6 +17,7 @@
 //! The way s is that of the row from where it was at the start of the increment, without what sticking yields, or a distance that
 //! the step imposes, spread evenly over its time.
 
+use super::means::mean;
 use super::{
     Archive, ArchiveError, ContactPhase, Interface, Measure, Participant, Rows, State, TermError,
     Worn,
@@ -211,7 +212,6 @@ impl Interface {
                 }
             }
         }
-        let mean = |(sum, weight): (f64, f64)| if weight > 0.0 { sum / weight } else { 0.0 };
         let opposite = wear.areas.iter().zip(&self.worn.nodes[1]);
         let opposite: Vec<(NodeId, f64)> = opposite.map(|((node, _), h)| (*node, *h)).collect();
         for (node, depth) in &opposite {
