@@ -91,7 +91,7 @@ fn setting(help: &str) -> Option<String> {
     Some(format!("{why}:  run it with  --set 'solver.{key}={value}'"))
 }
 
-/// Sizes of increments as those of *STATIC.
+/// Sizes of increments as in the line of a procedure.
 fn increments(help: &str) -> Option<String> {
     let (why, rest) = help.split_once("increments = { ")?;
     let (sizes, _) = rest.split_once(" }")?;
@@ -102,7 +102,7 @@ fn increments(help: &str) -> Option<String> {
     let why = why.trim_end_matches([' ', ':']);
     let mut text = match (size("initial"), size("min"), size("max")) {
         (Some(initial), Some(min), Some(max)) => {
-            format!("{why}:  {initial}, the period, {min}, {max}  below *STATIC")
+            format!("{why}:  {initial}, the period, {min}, {max}  below the procedure")
         }
         _ => return None,
     };
@@ -133,7 +133,7 @@ mod tests {
             ),
             (
                 "smaller increments:  increments = { initial = 0.1, min = 1e-5, max = 1, count_max = 100 }  of step \"step-1\"",
-                "smaller increments:  0.1, the period, 1e-5, 1  below *STATIC, and  INC=100  in *STEP",
+                "smaller increments:  0.1, the period, 1e-5, 1  below the procedure, and  INC=100  in *STEP",
             ),
             (
                 "give at least one [[body]] a `material`",

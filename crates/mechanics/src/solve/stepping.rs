@@ -9,7 +9,7 @@ use super::step::{Cycle, Increments, Motion, Sizes, Step, Turns};
 use super::work::ExternalWork;
 use crate::explicit::{Explicit, Kept};
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, Order, State, System, TermError, interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, Heat, Order, State, System, TermError, interpolate,
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
@@ -559,7 +559,7 @@ impl Stepper {
     }
 
     /// Goes to the step time `end` where sizes of the increment have failed: in parts, and if that does not get there, in
-    /// slow motion; `None` where neither does.
+    /// slow motion, where bodies store no heat; `None` where neither does.
     fn help(
         &mut self,
         system: &mut System,
@@ -573,6 +573,10 @@ impl Stepper {
         }
         if let Some(accepted) = self.follow(system, step, end, attempt, observer)? {
             return Ok(Some(accepted));
+        }
+        // stages take no time, in which nothing stores heat
+        if step.physics.heat == Heat::Transient {
+            return Ok(None);
         }
         let mut targets = Vec::new();
         self.targets(step, end, &mut targets);

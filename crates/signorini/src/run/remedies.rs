@@ -7,7 +7,7 @@
 //! ```
 
 use crate::setup::{ContactInfo, hold};
-use signorini_io::case::{Case, Increments, Remedy, Step};
+use signorini_io::case::{Case, Conductance, Increments, Remedy, Step};
 use signorini_linear::LinearError;
 use signorini_mechanics::solve::Failure;
 use signorini_mechanics::system::TermError;
@@ -201,7 +201,23 @@ impl Trouble<'_> {
         let name = &contact.name;
         let method = other
             .map(|other| format!("another method:  method = \"{other}\"  of contact \"{name}\""));
-        method.into_iter().chain(chosen_penalty(contact)).collect()
+        let even = self.even_conductance(name).into_iter();
+        even.chain(method).chain(chosen_penalty(contact)).collect()
+    }
+
+    /// A conductance without a jump, for a contact whose conductance jumps where it closes: what closes cools, and opens again.
+    fn even_conductance(&self, name: &str) -> Option<String> {
+        self.step()?.thermal?;
+        let mut contacts = self.case.contacts.iter();
+        let contact = contacts.find(|one| one.name.value == name)?;
+        let jump = contact.conductance.iter().find_map(|path| match path {
+            Conductance::Constant(h) => Some(number(*h)),
+            _ => None,
+        })?;
+        Some(format!(
+            "a conductance that grows evenly from nothing, up to a pressure p:  \
+             conductance = {{ over_pressure = [[0.0, 0.0], [p, {jump}]] }}  of contact \"{name}\""
+        ))
     }
 
     /// A law that does not collapse, for a body of one that does.
