@@ -710,7 +710,7 @@ impl Translation<'_> {
             let on = self.named(&targets, &card.place);
             step.temperatures.push(crate::case::Temperature {
                 on,
-                value,
+                value: Motion::Ramp(value),
                 place: card.place.clone(),
             });
         }

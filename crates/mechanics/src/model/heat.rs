@@ -3,7 +3,7 @@
 use super::{Context, HeatPart, ModelError, StepPart};
 use crate::solid::{HeatInBody, HeatParts, Integration};
 use crate::solve::{Motion, Prescription};
-use crate::system::{Dof, Heat, Idealisation, Layout, NO_DOF, NodalField, Term};
+use crate::system::{Dof, Idealisation, Layout, NO_DOF, NodalField, Term};
 use signorini_geometry::mesh::{CellId, NodeId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -25,9 +25,9 @@ pub(super) fn given(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalFiel
     let mut ends = vec![start];
     for step in steps {
         let mut end = ends.last().cloned().unwrap_or_default();
-        for &(node, value) in &step.temperatures {
-            if let Some(to) = end.get_mut(node as usize) {
-                *to = value;
+        for (node, course) in &step.temperatures {
+            if let (Some(to), Motion::Ramp(value)) = (end.get_mut(*node as usize), course) {
+                *to = *value;
             }
         }
         ends.push(end);
@@ -44,8 +44,8 @@ pub(super) fn at_start(layout: &Layout, temperature: &[f64]) -> Arc<[(Dof, f64)]
 
 /// What steps prescribe of temperatures, one after the other.
 pub(super) struct Temperatures {
-    /// Nodes whose temperature a step has given.
-    given: BTreeSet<NodeId>,
+    /// Nodes whose temperature a step has given, and its course from then on.
+    given: BTreeMap<NodeId, Motion>,
     /// Nodes of no body that conducts: they keep their temperature unless a step gives them another.
     idle: BTreeSet<NodeId>,
 }
@@ -60,21 +60,19 @@ impl Temperatures {
         for node in &step.freed_temperatures {
             self.given.remove(node);
         }
-        let here: BTreeMap<NodeId, f64> = step.temperatures.iter().copied().collect();
-        self.given.extend(here.keys());
-        let motion = |node: &NodeId| match here.get(node) {
-            None => Motion::Hold,
-            // what stores heat is heated at once, as other programs have it
-            Some(to) if step.physics.heat == Heat::Transient => Motion::Table(vec![[0.0, *to]]),
-            Some(to) => Motion::Ramp(*to),
-        };
+        for course in self.given.values_mut().filter(|course| !course.goes_on()) {
+            *course = Motion::Hold;
+        }
+        self.given.extend(step.temperatures.iter().cloned());
         let prescribe = |node: NodeId| Prescription {
             dof: layout.temperature(node),
-            motion: motion(&node),
+            motion: self.given.get(&node).cloned().unwrap_or(Motion::Hold),
         };
         match step.physics.has_heat() {
             true => {
-                let held = self.given.union(&self.idle);
+                let idle = self.idle.iter();
+                let others = idle.filter(|node| !self.given.contains_key(node));
+                let held = self.given.keys().chain(others);
                 held.map(|&node| prescribe(node)).collect()
             }
             false => (0..layout.nnode() as NodeId).map(prescribe).collect(),
@@ -124,7 +122,7 @@ impl Context<'_> {
             }
         }
         Temperatures {
-            given: BTreeSet::new(),
+            given: BTreeMap::new(),
             idle,
         }
     }

@@ -19,6 +19,7 @@ use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{Case, ConstraintKind, Name};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::model::Unknown;
+use signorini_mechanics::solve::Motion;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A cut through a body.
@@ -69,13 +70,14 @@ impl Cuts {
     }
 
     /// Copies of nodes are as warm as the nodes.
-    pub fn warm(&self, temperatures: &mut Vec<(NodeId, f64)>) {
+    pub fn warm(&self, temperatures: &mut Vec<(NodeId, Motion)>) {
         if self.0.is_empty() {
             return;
         }
-        let given: BTreeMap<NodeId, f64> = temperatures.iter().copied().collect();
+        let given: BTreeMap<NodeId, Motion> = temperatures.iter().cloned().collect();
         let copied = self.pairs();
-        temperatures.extend(copied.filter_map(|(node, copy)| Some((copy, *given.get(&node)?))));
+        let copied = copied.filter_map(|(node, copy)| Some((copy, given.get(&node)?.clone())));
+        temperatures.extend(copied);
     }
 
     /// Copies of nodes move as the nodes do.

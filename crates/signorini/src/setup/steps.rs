@@ -73,6 +73,7 @@ impl Builder<'_> {
                 found.push(changes_nothing(step));
             }
             goes_on |= part.changes.iter().any(runs_on)
+                || part.temperatures.iter().any(|(_, course)| course.goes_on())
                 || part.loads.iter().any(|load| load.course.goes_on());
             steps.push(part);
         }
@@ -210,11 +211,22 @@ impl Builder<'_> {
         parts
     }
 
-    fn temperatures(&self, step: &Step, found: &mut Diagnostics) -> Vec<(NodeId, f64)> {
+    fn temperatures(&self, step: &Step, found: &mut Diagnostics) -> Vec<(NodeId, Motion)> {
         let mut temperatures = Vec::new();
         for part in &step.temperatures {
+            let course = match (&part.value, step.thermal) {
+                (course, Some(_)) => self.motion(step, course),
+                (case::Motion::Ramp(to), None) => Motion::Ramp(*to),
+                (_, None) => {
+                    let text = "a temperature has a course in a step that does not solve for heat";
+                    let one = Diagnostic::error(&codes::NOT_BUILT, text).at(&part.place, "");
+                    let help = "write a number, which is reached linearly; or  kind = \"coupled\"";
+                    found.push(one.help(help));
+                    continue;
+                }
+            };
             let nodes = self.names.nodes(&part.on, found).unwrap_or_default();
-            temperatures.extend(nodes.into_iter().map(|node| (node, part.value)));
+            temperatures.extend(nodes.into_iter().map(|node| (node, course.clone())));
         }
         temperatures
     }

@@ -208,12 +208,11 @@ impl Builder<'_> {
             .iter()
             .map(|one| one.name.as_str())
             .collect();
-        let motions = case
-            .steps
-            .iter()
-            .flat_map(|step| &step.moves)
-            .flat_map(|one| one.u.iter().chain(&one.rot));
-        let of_motions = motions.flatten().filter_map(|motion| match motion {
+        let moves = case.steps.iter().flat_map(|step| &step.moves);
+        let motions = moves.flat_map(|one| one.u.iter().chain(&one.rot)).flatten();
+        let temperatures = case.steps.iter().flat_map(|step| &step.temperatures);
+        let courses = motions.chain(temperatures.map(|one| &one.value));
+        let of_motions = courses.filter_map(|motion| match motion {
             Motion::Amplitude { name, .. } => Some(name),
             Motion::Ramp(_) | Motion::Table(_) => None,
         });

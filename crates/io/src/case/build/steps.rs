@@ -300,7 +300,7 @@ impl Builder<'_> {
                 .into_iter()
                 .map(|(one, place)| Temperature {
                     on: one.text("on"),
-                    value: one.number("value"),
+                    value: self.course(one, "value").unwrap_or(Motion::Ramp(0.0)),
                     place,
                 })
                 .collect(),
@@ -358,24 +358,28 @@ impl Builder<'_> {
         }
     }
 
+    /// The course of what a key prescribes.
+    fn course(&mut self, fields: Fields<'_>, key: &str) -> Option<Motion> {
+        let table = fields.table(key);
+        if let Some(name) = table.text_if("amplitude") {
+            Some(Motion::Amplitude {
+                name,
+                value: table.number("value"),
+            })
+        } else if table.has("table") {
+            Some(Motion::Table(self.time_table(table)))
+        } else {
+            let number = fields.number_if(key);
+            number.map(|number| Motion::Ramp(number.value))
+        }
+    }
+
     fn motion(&mut self, fields: Fields<'_>, place: Place) -> Move {
         let mut component = |key: &str| {
             if self.space.ndim() == 2 && matches!(key, "uz" | "rx" | "ry") && fields.has(key) {
                 self.out_of_plane(&format!("`{key}`"), &fields.place(key));
             }
-            let table = fields.table(key);
-            if let Some(name) = table.text_if("amplitude") {
-                Some(Motion::Amplitude {
-                    name,
-                    value: table.number("value"),
-                })
-            } else if table.has("table") {
-                Some(Motion::Table(self.time_table(table)))
-            } else {
-                fields
-                    .number_if(key)
-                    .map(|number| Motion::Ramp(number.value))
-            }
+            self.course(fields, key)
         };
         let (u, rot) = (
             ["ux", "uy", "uz"].map(&mut component),

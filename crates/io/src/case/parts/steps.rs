@@ -395,13 +395,13 @@ pub enum Course {
     Amplitude(Name),
 }
 
-/// Temperatures that are reached linearly over a step.
+/// Prescribed temperatures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Temperature {
     /// A set or group; `all` is everything.
     pub on: Name,
-    /// The temperature at the end of the step.
-    pub value: f64,
+    /// Their course over the step.
+    pub value: Motion,
     /// Where it was written.
     pub place: Place,
 }

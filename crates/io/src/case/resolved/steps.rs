@@ -267,7 +267,10 @@ fn deactivation(one: &Deactivation) -> Entries {
 }
 
 fn temperature(one: &Temperature) -> Entries {
-    vec![("on", (&one.on.value).into()), ("value", one.value.into())]
+    vec![
+        ("on", (&one.on.value).into()),
+        ("value", course(&one.value)),
+    ]
 }
 
 fn print(one: &Print) -> Entries {

@@ -370,7 +370,7 @@ const MOTION: Shape = Shape::Either(&[ANY, Shape::Table(&MOTION_TABLE)]);
 
 pub(super) static MOTION_TABLE: Table = Table {
     heading: "a motion",
-    doc: "the course of a prescribed component",
+    doc: "the course of a prescribed component or temperature",
     keys: &[
         key(
             "table",
@@ -487,7 +487,12 @@ static TEMPERATURE: Table = Table {
         key("on", Shape::Text, "the set or group; \"all\" is everything")
             .required()
             .hints(&["set", "group"]),
-        key("value", ANY, "the temperature at the end of the step").required(),
+        key(
+            "value",
+            MOTION,
+            "the temperature at the end of the step; its course, in heat and coupled steps",
+        )
+        .required(),
     ],
     rules: &[],
 };

@@ -464,9 +464,9 @@ pub struct StepPart {
     pub loads: Vec<LoadPart>,
     /// Contacts that change when it begins.
     pub contacts: Vec<ContactChange>,
-    /// Temperatures that nodes reach: linearly over the step, and at once where bodies store heat; others keep theirs, or are free
-    /// where temperatures are unknown.
-    pub temperatures: Vec<(NodeId, f64)>,
+    /// Courses of the temperatures of nodes; others keep theirs, or are free where temperatures are unknown. Where no step solves for
+    /// temperatures, they are reached linearly.
+    pub temperatures: Vec<(NodeId, Motion)>,
     /// Nodes whose temperatures are free again from its beginning on.
     pub freed_temperatures: Vec<NodeId>,
     /// Cells that take part again, or no longer, from its beginning on.
