@@ -19,6 +19,7 @@ use super::{
     State, TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
+use signorini_geometry::tensor::Vec3;
 
 /// What a term can do besides what all terms can. Where that changes it, [`Term::adaptive`](super::Term::adaptive) and
 /// [`Term::stored`](super::Term::stored) lead there.
@@ -36,6 +37,8 @@ pub struct Capabilities<'a> {
     pub viscous: Option<&'a dyn Viscous>,
     /// Has integration points.
     pub sampled: Option<&'a dyn Sampled>,
+    /// Has integration points with a flux of heat.
+    pub conducting: Option<&'a dyn Conducting>,
     /// Is a contact.
     pub audited: Option<&'a dyn Audited>,
     /// Is a contact that may act in explicit steps.
@@ -166,6 +169,20 @@ pub trait Sampled {
     /// # Errors
     /// As [`Term::evaluate`](super::Term::evaluate).
     fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError>;
+}
+
+/// A term that conducts heat through cells.
+pub trait Conducting {
+    /// Adds the flux of heat through present areas at the integration points of these cells, which are sorted, at an accepted state.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`](super::Term::evaluate).
+    fn sample_heat(
+        &self,
+        state: &State,
+        cells: &[CellId],
+        out: &mut Samples<Vec3>,
+    ) -> Result<(), TermError>;
 }
 
 /// The term that has the mass of all bodies.

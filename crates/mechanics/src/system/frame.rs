@@ -354,6 +354,9 @@ pub struct Frame {
     /// Force of bodies, springs and contacts at each node, which is what loads, supports and couplings exert on it;
     /// empty where not wanted.
     pub internal_force: Vec<Vec3>,
+    /// Heat per time that bodies and contacts take from each node, which is what loads and held temperatures give it; empty where
+    /// not wanted.
+    pub internal_heat: Vec<f64>,
     /// Cauchy stress at each node, the mean over the cells around it.
     pub stress: Vec<Sym3>,
     /// Strain at each node, averaged likewise: linearized at small strain, logarithmic `½ ln(F Fᵀ)` at finite strain.
@@ -374,6 +377,8 @@ pub struct Frame {
     pub active: Vec<Vec<bool>>,
     /// Values at the integration points of the cells that are wanted.
     pub samples: Samples,
+    /// Fluxes of heat there, through present areas.
+    pub heat_samples: Samples<Vec3>,
     /// Temperature of each node; empty where there are none.
     pub temperature: Vec<f64>,
     /// Flux of heat at each node through present areas (heat per time and area), the mean over the cells around it; empty where

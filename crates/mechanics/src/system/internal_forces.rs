@@ -1,4 +1,4 @@
-//! Forces of solids on nodes, without loads and contacts.
+//! Forces of solids on nodes, and heat that they take from nodes.
 
 use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
 use rayon::prelude::*;
@@ -7,13 +7,25 @@ use signorini_geometry::tensor::Vec3;
 /// Chunks whose forces are found before their nodes take them: bounds the memory.
 const CHUNKS: usize = 256;
 
-/// The forces of all terms within at the nodes, whatever follows whatever.
+/// What all terms within do at the nodes, whatever follows whatever.
+pub(super) struct Internal {
+    /// Forces.
+    pub forces: Vec<Vec3>,
+    /// Heat per time that leaves the nodes; empty without temperatures.
+    pub heat: Vec<f64>,
+}
+
+/// What all terms within do at the nodes.
 pub(super) fn internal_forces(
     terms: &[Box<dyn Term>],
     layout: &Layout,
     state: &State,
-) -> Result<Vec<Vec3>, TermError> {
+) -> Result<Internal, TermError> {
     let mut at_nodes = vec![Vec3::ZERO; layout.nnode()];
+    let mut heat = match layout.has_temperatures() {
+        true => vec![0.0; layout.nnode()],
+        false => Vec::new(),
+    };
     let internal = terms
         .iter()
         .filter(|term| term.properties().role == Role::Internal);
@@ -30,17 +42,25 @@ pub(super) fn internal_forces(
             let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
             for forces in evaluated {
                 for (dof, force) in forces?.0 {
-                    let name = layout.name(dof).and_then(DofName::displacement);
-                    if let Some((node, axis)) = name
-                        && let Some(to) = at_nodes.get_mut(node as usize)
+                    let name = layout.name(dof);
+                    if let Some((node, axis)) = name.and_then(DofName::displacement) {
+                        if let Some(to) = at_nodes.get_mut(node as usize) {
+                            to[axis] += force;
+                        }
+                    } else if let Some(name) = name
+                        && layout.temperature(name.entity) == dof
+                        && let Some(to) = heat.get_mut(name.entity as usize)
                     {
-                        to[axis] += force;
+                        *to += force;
                     }
                 }
             }
         }
     }
-    Ok(at_nodes)
+    Ok(Internal {
+        forces: at_nodes,
+        heat,
+    })
 }
 
 /// Forces as they come.

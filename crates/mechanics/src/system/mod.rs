@@ -81,8 +81,8 @@ pub use assembler::Assembler;
 pub use assembly::Assembly;
 pub use audited::{Check, ContactAudit, Measured};
 pub use capabilities::{
-    Adaptive, Aid, Audited, Capabilities, Choices, ContactNumbering, Elementwise, Inertial,
-    InitialStiffness, Sampled, Stored, Verdict, Viscous, Wearing,
+    Adaptive, Aid, Audited, Capabilities, Choices, Conducting, ContactNumbering, Elementwise,
+    Inertial, InitialStiffness, Sampled, Stored, Verdict, Viscous, Wearing,
 };
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};

@@ -7,16 +7,16 @@ use signorini_geometry::tensor::{Mat3, Sym3};
 pub struct Wanted {
     /// Cells whose integration points are sampled; sorted.
     pub cells: Vec<CellId>,
-    /// Whether internal forces are.
+    /// Whether internal forces are, and heat that bodies conduct away from nodes.
     pub forces: bool,
 }
 
 /// Values at the integration points of some cells.
 #[derive(Clone, Debug, Default)]
-pub struct Samples {
+pub struct Samples<S = PointSample> {
     // a cell, its rule, and where its points begin
     cells: Vec<(CellId, &'static Rule, usize)>,
-    points: Vec<PointSample>,
+    points: Vec<S>,
 }
 
 /// What is known at an integration point.
@@ -38,21 +38,16 @@ pub struct PointSample {
     pub axes: Option<Mat3>,
 }
 
-impl Samples {
+impl<S> Samples<S> {
     /// Adds a cell with the points of its rule.
-    pub fn push(
-        &mut self,
-        cell: CellId,
-        rule: &'static Rule,
-        points: impl Iterator<Item = PointSample>,
-    ) {
+    pub fn push(&mut self, cell: CellId, rule: &'static Rule, points: impl Iterator<Item = S>) {
         self.cells.push((cell, rule, self.points.len()));
         self.points.extend(points);
     }
 
     /// The points of a cell and the values there; `None` of a cell that was not sampled.
     #[must_use]
-    pub fn of(&self, cell: CellId) -> Option<(&'static Rule, &[PointSample])> {
+    pub fn of(&self, cell: CellId) -> Option<(&'static Rule, &[S])> {
         let at = self
             .cells
             .binary_search_by_key(&cell, |(id, ..)| *id)

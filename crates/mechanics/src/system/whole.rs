@@ -209,8 +209,10 @@ impl System {
         frame.audits = self.audit(state, &frame);
         frame.free_motions = self.free_motions(state, &frame);
         frame.samples = samples_of(&self.terms, state, &self.wanted.cells)?;
+        frame.heat_samples = heat_samples_of(&self.terms, state, &self.wanted.cells)?;
         if self.wanted.forces {
-            frame.internal_force = internal_forces(&self.terms, &self.layout, state)?;
+            let internal = internal_forces(&self.terms, &self.layout, state)?;
+            (frame.internal_force, frame.internal_heat) = (internal.forces, internal.heat);
         }
         Ok(frame)
     }
@@ -302,6 +304,25 @@ fn samples_of(
         let sampled = terms.iter().filter_map(|term| term.capabilities().sampled);
         for term in sampled {
             term.sample(state, cells, &mut samples)?;
+        }
+        samples.sort();
+    }
+    Ok(samples)
+}
+
+/// The fluxes of heat in these cells, likewise.
+fn heat_samples_of(
+    terms: &[Box<dyn Term>],
+    state: &State,
+    cells: &[CellId],
+) -> Result<Samples<Vec3>, TermError> {
+    let mut samples = Samples::default();
+    if !cells.is_empty() {
+        let conducting = terms
+            .iter()
+            .filter_map(|term| term.capabilities().conducting);
+        for term in conducting {
+            term.sample_heat(state, cells, &mut samples)?;
         }
         samples.sort();
     }

@@ -2208,7 +2208,7 @@ class MoveFrom(Table):
 
 
 class Motion(Table):
-    """The course of a prescribed component.
+    """The course of a prescribed component or temperature.
 
     TOML: `step.move.rx`.
     """
@@ -2255,9 +2255,9 @@ class Print(Table):
         "Quantities of contact, at the points of its secondary side or in all",
         "list of `\"gap\"`, `\"traction\"`, `\"energy\"`, `\"count\"`, `\"force\"`, `\"normal-force\"`, `\"shear-force\"`",
     )
-    elements: Key[list[Literal["stress", "strain", "mechanical-strain", "plastic-strain", "energy-density", "energy", "volume", "spin-squared"]] | None, Sequence[Literal["stress", "strain", "mechanical-strain", "plastic-strain", "energy-density", "energy", "volume", "spin-squared"]]] = Key(
+    elements: Key[list[Literal["stress", "strain", "mechanical-strain", "plastic-strain", "energy-density", "energy", "volume", "spin-squared", "heat-flux"]] | None, Sequence[Literal["stress", "strain", "mechanical-strain", "plastic-strain", "energy-density", "energy", "volume", "spin-squared", "heat-flux"]]] = Key(
         "Quantities of elements, at their integration points where they vary",
-        "list of `\"stress\"`, `\"strain\"`, `\"mechanical-strain\"`, `\"plastic-strain\"`, `\"energy-density\"`, `\"energy\"`, `\"volume\"`, `\"spin-squared\"`",
+        "list of `\"stress\"`, `\"strain\"`, `\"mechanical-strain\"`, `\"plastic-strain\"`, `\"energy-density\"`, `\"energy\"`, `\"volume\"`, `\"spin-squared\"`, `\"heat-flux\"`",
     )
     every: Key[int, int] = Key(
         "After so many increments, and at the end of the step",
@@ -2273,9 +2273,9 @@ class Print(Table):
         "`true` or `false`",
         default=False,
     )
-    nodes: Key[list[Literal["displacement", "reaction", "temperature"]] | None, Sequence[Literal["displacement", "reaction", "temperature"]]] = Key(
+    nodes: Key[list[Literal["displacement", "reaction", "temperature", "heat-reaction"]] | None, Sequence[Literal["displacement", "reaction", "temperature", "heat-reaction"]]] = Key(
         "Quantities of nodes",
-        "list of `\"displacement\"`, `\"reaction\"`, `\"temperature\"`",
+        "list of `\"displacement\"`, `\"reaction\"`, `\"temperature\"`, `\"heat-reaction\"`",
     )
     on: Key[str | None, str] = Key(
         "The set or group of nodes, elements or faces, or the contact; absent: every contact",
@@ -2296,7 +2296,11 @@ class Temperature(Table):
 
     _toml = "step.temperature"
     on: Key[str | None, str] = Key("The set or group; \"all\" is everything", "text")
-    value: Key[float | None, float] = Key("The temperature at the end of the step", "number")
+    value: Mixed[Motion] = Mixed(
+        Motion,
+        "The temperature at the end of the step; its course, in heat and coupled steps",
+        "number or a table",
+    )
 
 
 class Step(Table):
@@ -2790,10 +2794,10 @@ if TYPE_CHECKING:
     }, total=False)
     PrintKeys = TypedDict("PrintKeys", {
         "contact": Sequence[Literal["gap", "traction", "energy", "count", "force", "normal-force", "shear-force"]],
-        "elements": Sequence[Literal["stress", "strain", "mechanical-strain", "plastic-strain", "energy-density", "energy", "volume", "spin-squared"]],
+        "elements": Sequence[Literal["stress", "strain", "mechanical-strain", "plastic-strain", "energy-density", "energy", "volume", "spin-squared", "heat-flux"]],
         "every": int,
         "faces": Sequence[Literal["force"]],
         "local": bool,
-        "nodes": Sequence[Literal["displacement", "reaction", "temperature"]],
+        "nodes": Sequence[Literal["displacement", "reaction", "temperature", "heat-reaction"]],
         "totals": Literal["no", "yes", "only"],
     }, total=False)

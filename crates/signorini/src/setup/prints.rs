@@ -72,6 +72,8 @@ pub enum NodeQuantity {
     Reaction,
     /// Temperature.
     Temperature,
+    /// Heat that bodies and contacts take from it, which loads and held temperatures give.
+    HeatReaction,
 }
 
 /// A quantity of elements.
@@ -93,6 +95,8 @@ pub enum ElementQuantity {
     Volume,
     /// Squared angular velocity of the centrifugal load that acts on each element.
     SpinSquared,
+    /// Flux of heat at the points, through present areas.
+    HeatFlux,
 }
 
 /// A quantity of contacts.
@@ -114,13 +118,14 @@ pub enum ContactQuantity {
     ShearForce,
 }
 
-const OF_NODES: [(&str, NodeQuantity); 3] = [
+const OF_NODES: [(&str, NodeQuantity); 4] = [
     ("displacement", NodeQuantity::Displacement),
     ("reaction", NodeQuantity::Reaction),
     ("temperature", NodeQuantity::Temperature),
+    ("heat-reaction", NodeQuantity::HeatReaction),
 ];
 
-const OF_ELEMENTS: [(&str, ElementQuantity); 8] = [
+const OF_ELEMENTS: [(&str, ElementQuantity); 9] = [
     ("stress", ElementQuantity::Stress),
     ("strain", ElementQuantity::Strain),
     ("mechanical-strain", ElementQuantity::MechanicalStrain),
@@ -129,6 +134,7 @@ const OF_ELEMENTS: [(&str, ElementQuantity); 8] = [
     ("energy", ElementQuantity::Energy),
     ("volume", ElementQuantity::Volume),
     ("spin-squared", ElementQuantity::SpinSquared),
+    ("heat-flux", ElementQuantity::HeatFlux),
 ];
 
 const OF_CONTACTS: [(&str, ContactQuantity); 7] = [
@@ -183,6 +189,7 @@ pub(super) fn wanted(
         match &one.what {
             PrintedOf::Elements(cells, _) => wanted.cells.extend(cells),
             PrintedOf::Nodes(nodes, quantities) => {
+                wanted.forces |= quantities.contains(&NodeQuantity::HeatReaction);
                 if quantities.contains(&NodeQuantity::Reaction) {
                     wanted.forces = true;
                     if space == Space::Axisymmetric {

@@ -558,7 +558,12 @@ static PRINT: Table = Table {
     ],
 };
 
-const OF_NODES: &[Choice] = &[word("displacement"), word("reaction"), word("temperature")];
+const OF_NODES: &[Choice] = &[
+    word("displacement"),
+    word("reaction"),
+    word("temperature"),
+    word("heat-reaction"),
+];
 const OF_ELEMENTS: &[Choice] = &[
     word("stress"),
     word("strain"),
@@ -568,6 +573,7 @@ const OF_ELEMENTS: &[Choice] = &[
     word("energy"),
     word("volume"),
     word("spin-squared"),
+    word("heat-flux"),
 ];
 const OF_FACES: &[Choice] = &[word("force")];
 const OF_CONTACTS: &[Choice] = &[

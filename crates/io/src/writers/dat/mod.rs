@@ -47,6 +47,12 @@ pub enum Kind {
     TotalForce,
     /// Temperatures of nodes.
     Temperatures,
+    /// Heat that bodies and contacts take from nodes.
+    Heat,
+    /// Its sum.
+    TotalHeat,
+    /// Fluxes of heat at points.
+    HeatFluxes,
     /// Cauchy stresses at points.
     Stresses,
     /// Strains at points: linear, or of Green and Lagrange.
@@ -76,6 +82,9 @@ impl Kind {
             Self::Forces => "forces (fx,fy,fz) ",
             Self::TotalForce => "total force (fx,fy,fz) ",
             Self::Temperatures => "temperatures ",
+            Self::Heat => "heat generation ",
+            Self::TotalHeat => "total heat generation ",
+            Self::HeatFluxes => "heat flux (elem, integ.pnt.,qx,qy,qz) ",
             Self::Stresses => "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) ",
             Self::Strains => "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz) ",
             Self::MechanicalStrains => {

@@ -70,19 +70,21 @@ impl Points {
         self.sum(place, |point, weight| value(point) * weight)
     }
 
+    /// The vector at a place in the axes of the model, from those at the points of the rule.
+    pub fn vector(&self, place: usize, value: impl Fn(usize) -> Vec3) -> Vec3 {
+        let vector = self.sum(place, |point, weight| value(point) * weight);
+        match self.angles.get(place / self.nplace.max(1)).copied() {
+            Some(angle) if angle != 0.0 => turn(angle) * vector,
+            _ => vector,
+        }
+    }
+
     /// The tensor at a place in the axes of the model, from those at the points of the rule.
     pub fn tensor(&self, place: usize, value: impl Fn(usize) -> Sym3) -> Sym3 {
         let tensor = self.sum(place, |point, weight| value(point) * weight);
         let angle = self.angles.get(place / self.nplace.max(1)).copied();
         match angle {
-            Some(angle) if angle != 0.0 => {
-                let (sin, cos) = angle.sin_cos();
-                tensor.congruence(Mat3::from_rows([
-                    Vec3::new(cos, 0.0, -sin),
-                    Vec3::new(0.0, 1.0, 0.0),
-                    Vec3::new(sin, 0.0, cos),
-                ]))
-            }
+            Some(angle) if angle != 0.0 => tensor.congruence(turn(angle)),
             _ => tensor,
         }
     }
@@ -205,4 +207,14 @@ fn fitted(rule: &Rule, places: &[Vec3]) -> Vec<f64> {
         rule.iter().map(weight).collect::<Vec<f64>>()
     };
     places.iter().flat_map(row).collect()
+}
+
+/// From a plane through the axis to the axes of the model.
+fn turn(angle: f64) -> Mat3 {
+    let (sin, cos) = angle.sin_cos();
+    Mat3::from_rows([
+        Vec3::new(cos, 0.0, -sin),
+        Vec3::new(0.0, 1.0, 0.0),
+        Vec3::new(sin, 0.0, cos),
+    ])
 }

@@ -5,6 +5,7 @@ use crate::solid::error::SolidError;
 use crate::solid::kernel::Points;
 use crate::solid::report::extrapolation;
 use crate::system::{Frame, Idealisation, profile_at};
+use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -129,6 +130,11 @@ fn volume(points: &Points, point: usize, det: f64, at: Vec3, (space, profile): A
 impl Block {
     pub const fn npoint(&self) -> usize {
         self.points.rule.npoint()
+    }
+
+    /// The rule of conduction.
+    pub const fn rule(&self) -> &'static Rule {
+        self.points.rule
     }
 
     pub const fn nmass(&self) -> usize {

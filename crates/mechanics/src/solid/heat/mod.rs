@@ -32,9 +32,9 @@ mod cells;
 use super::error::SolidError;
 use crate::material::{Conductor, pulled_back};
 use crate::system::{
-    Activity, Archive, ArchiveError, Capabilities, Dof, Frame, Heat, Idealisation, Layout,
-    LocalHeat, Order, Part, PatternSink, Phase, Properties, Sink, State, StepContext, Stored,
-    Symmetry, Term, TermError, Work,
+    Activity, Archive, ArchiveError, Capabilities, Conducting, Dof, Frame, Heat, Idealisation,
+    Layout, LocalHeat, Order, Part, PatternSink, Phase, Properties, Samples, Sink, State,
+    StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use cells::{Block, Place};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -419,6 +419,25 @@ impl HeatInBody {
         Ok(())
     }
 
+    /// The flux of heat at the points of a cell: `q = F Q/J`, through present areas.
+    fn flux(
+        &self,
+        block: &Block,
+        cell: usize,
+        s: &mut Scratch,
+        flux: &mut Vec<Vec3>,
+    ) -> Result<(), TermError> {
+        flux.clear();
+        for point in 0..block.npoint() {
+            let place = self.place(block, cell, point, s)?;
+            let deformed = self.deformation(block, cell, s, &place)?;
+            let [d, _] = self.conductivity(dot(place.shape(block), &s.now), deformed);
+            let (_, f, ratio) = deformed;
+            flux.push(f * (d * s.steepness()) * (-ratio.recip()));
+        }
+        Ok(())
+    }
+
     /// The heat that the body took up in the increment that ends at a state.
     fn taken_up(&self, state: &State) -> Result<f64, TermError> {
         let (mut total, mut scratch) = (0.0, Scratch::default());
@@ -546,15 +565,7 @@ impl Term for HeatInBody {
         let mut flux = Vec::new();
         for chunk in 0..self.chunks.len() {
             self.each(chunk, state, &mut scratch, |block, cell, s| {
-                flux.clear();
-                for point in 0..block.npoint() {
-                    let place = self.place(block, cell, point, s)?;
-                    let deformed = self.deformation(block, cell, s, &place)?;
-                    let [d, _] = self.conductivity(dot(place.shape(block), &s.now), deformed);
-                    let (_, f, ratio) = deformed;
-                    // q = F Q/J, through present areas
-                    flux.push(f * (d * s.steepness()) * (-ratio.recip()));
-                }
+                self.flux(block, cell, s, &mut flux)?;
                 block.carry_to_nodes(cell, &flux, frame);
                 Ok(())
             })?;
@@ -573,12 +584,35 @@ impl Term for HeatInBody {
     fn capabilities(&self) -> Capabilities<'_> {
         Capabilities {
             stored: Some(self),
+            conducting: Some(self),
             ..Capabilities::default()
         }
     }
 
     fn stored(&mut self) -> Option<&mut dyn Stored> {
         Some(self)
+    }
+}
+
+impl Conducting for HeatInBody {
+    fn sample_heat(
+        &self,
+        state: &State,
+        cells: &[CellId],
+        out: &mut Samples<Vec3>,
+    ) -> Result<(), TermError> {
+        let (mut scratch, mut flux) = (Scratch::default(), Vec::new());
+        for chunk in 0..self.nchunk() {
+            self.each(chunk, state, &mut scratch, |block, cell, s| {
+                let wanted = block.id(cell).filter(|id| cells.binary_search(id).is_ok());
+                if let Some(id) = wanted {
+                    self.flux(block, cell, s, &mut flux)?;
+                    out.push(id, block.rule(), flux.drain(..));
+                }
+                Ok(())
+            })?;
+        }
+        Ok(())
     }
 }
 

@@ -18,7 +18,8 @@ use signorini_io::writers::dat::{
 use signorini_mechanics::load::{Region, Section};
 use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{
-    ContactFrame, ContactSample, Footprint, Frame, PointSample, Resultant, RigidBody, SpinFrame,
+    ContactFrame, ContactSample, Footprint, Frame, PointSample, Resultant, RigidBody, Samples,
+    SpinFrame,
 };
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
@@ -221,6 +222,20 @@ impl Writer<'_> {
                     self.page.row(self.node(node), &[t.unwrap_or_default()]);
                 }
             }
+            NodeQuantity::HeatReaction => {
+                let heat = |node: &NodeId| self.frame.internal_heat.get(*node as usize).copied();
+                let heat = |node: &NodeId| heat(node).unwrap_or_default() * share;
+                if one.totals != Totals::Only {
+                    self.page.table(Kind::Heat, &one.set);
+                    for node in nodes {
+                        self.page.row(self.node(*node), &[heat(node)]);
+                    }
+                }
+                if one.totals != Totals::No {
+                    self.page.table(Kind::TotalHeat, &one.set);
+                    self.page.row(Of::All, &[nodes.iter().map(heat).sum()]);
+                }
+            }
             NodeQuantity::Reaction => {
                 let force = |node: NodeId| {
                     if let Some(stand) = self.tables.references.get(&node) {
@@ -318,6 +333,14 @@ impl Writer<'_> {
                 self.sums(kinds, one, cells, |s| s.volume);
             }
             ElementQuantity::SpinSquared => self.spins(&one.set, cells),
+            ElementQuantity::HeatFlux => {
+                self.page.table(Kind::HeatFluxes, &one.set);
+                let fluxes = &self.frame.heat_samples;
+                self.at_points(fluxes, cells, |page, of_point, points, place, samples| {
+                    let value = |p: usize| samples.get(p).copied().unwrap_or_default();
+                    page.row(of_point, &points.vector(place, value).to_array());
+                });
+            }
         }
     }
 
@@ -347,7 +370,8 @@ impl Writer<'_> {
     ) {
         self.page.table(kind, &one.set);
         let axes = |s: &PointSample| s.axes.filter(|_| one.local);
-        self.at_points(cells, |page, of_point, points, place, samples| {
+        let samples = &self.frame.samples;
+        self.at_points(samples, cells, |page, of_point, points, place, samples| {
             let value = |s: &PointSample| match axes(s) {
                 Some(axes) => of(s).congruence(axes),
                 None => of(s),
@@ -372,20 +396,22 @@ impl Writer<'_> {
         take: fn(f64) -> f64,
     ) {
         self.page.table(kind, set);
-        self.at_points(cells, |page, of_point, points, place, samples| {
+        let samples = &self.frame.samples;
+        self.at_points(samples, cells, |page, of_point, points, place, samples| {
             let value = points.scalar(place, |p| samples.get(p).map_or(0.0, of));
             page.row(of_point, &[take(value)]);
         });
     }
 
     /// Hands over every printed point of these cells.
-    fn at_points(
+    fn at_points<S>(
         &mut self,
+        sampled: &Samples<S>,
         cells: &[CellId],
-        mut put: impl FnMut(&mut Page, Of, &Points, usize, &[PointSample]),
+        mut put: impl FnMut(&mut Page, Of, &Points, usize, &[S]),
     ) {
         for &cell in cells {
-            let Some((rule, samples)) = self.frame.samples.of(cell) else {
+            let Some((rule, samples)) = sampled.of(cell) else {
                 continue;
             };
             let label = self.label(cell);
