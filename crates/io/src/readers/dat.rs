@@ -128,7 +128,7 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Block>, LineError> {
 /// Starts the table of a header or caption.
 fn begin(blocks: &mut Vec<Block>, text: &str, line: usize) {
     let next = match (split_time(text), blocks.last_mut()) {
-        (Some((section, time)), _) => Block::new(&section.into(), "", Some(time), line),
+        (Some((section, time)), _) => Block::new(&spaced(section), "", Some(time), line),
         (None, Some(last)) if last.time.is_some() => {
             if last.caption.is_empty() && last.is_empty() {
                 last.caption = text.to_owned();
@@ -140,6 +140,14 @@ fn begin(blocks: &mut Vec<Block>, text: &str, line: usize) {
         (None, _) => Block::new(&text.into(), "", None, line),
     };
     blocks.push(next);
+}
+
+/// A header with a blank in front of the name of its set, which CalculiX 2.20 leaves out of that of heat fluxes.
+fn spaced(section: &str) -> Arc<str> {
+    match section.split_once(" for set") {
+        Some((table, set)) if !set.starts_with(' ') => format!("{table} for set {set}").into(),
+        _ => section.into(),
+    }
 }
 
 /// Header and time of `… and time  0.1000000E+01`.
