@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Run decks through CalculiX and through signorini, and compare what both print.
 
-    python scripts/compare_ccx.py [DECKS] [--contact] [--least-contact N] [--least-static N] [--markdown FILE]
+    python scripts/compare_ccx.py [DECKS] [--contact] [--heat] [--least-contact N] [--least N] [--markdown FILE]
 
 DECKS is a folder with decks, .inp or .inp.gz; without it, that of Debian's package calculix-ccx-test. Taken are the
-decks whose procedures are all *STATIC, or of these, with --contact, those with *CONTACT PAIR or *GAP. Each runs in a
+decks whose procedures are all *STATIC, or of these, with --contact, those with *CONTACT PAIR or *GAP; with --heat those that
+solve for temperatures, too. Each runs in a
 temporary folder, with one thread, once by ccx and once by `signorini run --compat ccx`. Compared are the tables of
 their .dat files by `signorini diff`: a difference counts in parts of the largest value of its table; where the deck
 prints no table, displacements and stresses of their .frd files. Tables of numbers below 1e-9 alone are zero. Where
@@ -65,6 +66,7 @@ PROCEDURES = [
     "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
     "VISCO",
 ]
+OF_HEAT = ["COUPLEDTEMPERATURE-DISPLACEMENT", "HEATTRANSFER", "UNCOUPLEDTEMPERATURE-DISPLACEMENT"]
 # residual and correction, in parts of the mean force and the largest increment
 CONVERGED = "*CONTROLS, PARAMETERS=FIELD\n5.E-7, 1.E-5\n"
 CONTACT = ["CONTACTPAIR", "GAP"]
@@ -118,6 +120,13 @@ def is_static(found):
     return bool(procedures) and all(keyword.startswith("STATIC") for keyword in procedures)
 
 
+def is_of_heat(found):
+    """Whether some of these procedures solve for temperatures, and all others are *STATIC."""
+    procedures = [keyword for keyword in found if begins(keyword, PROCEDURES)]
+    some = any(begins(keyword, OF_HEAT) for keyword in procedures)
+    return some and all(begins(keyword, ["STATIC", *OF_HEAT]) for keyword in procedures)
+
+
 def has_contact(found):
     return any(begins(keyword, CONTACT) and not begins(keyword, NO_CONTACT) for keyword in found)
 
@@ -158,13 +167,14 @@ def unpack(source, target):
             shutil.copyfile(entry.path, to)
 
 
-def chosen(folder, only_contact):
-    """Static decks of a folder by name: their paths, and whether they have contact."""
+def chosen(folder, only_contact, of_heat=False):
+    """Static decks of a folder by name, or those of heat: their paths, and whether they have contact."""
+    is_meant = is_of_heat if of_heat else is_static
     decks = []
     for path in sorted(pathlib.Path(folder).glob("*.inp")):
         found = keywords(path.read_text(encoding="utf-8", errors="replace"))
         contact = has_contact(found)
-        if is_static(found) and (contact or not only_contact):
+        if is_meant(found) and (contact or not only_contact):
             decks.append((path.stem, contact))
     return decks
 
@@ -354,11 +364,11 @@ def agreeing(outcomes):
     return sum(outcome.status == "agrees" for outcome in outcomes)
 
 
-def counts(outcomes):
+def counts(outcomes, called="static"):
     """The counts in words, and the reasons, most frequent first."""
     contact = [outcome for outcome in outcomes if outcome.has_contact]
     lines = []
-    for name, some in (("static decks", outcomes), ("static decks with contact", contact)):
+    for name, some in ((f"{called} decks", outcomes), (f"{called} decks with contact", contact)):
         text = f"{agreeing(some)} of {len(some)} {name} agree"
         more = sum(outcome.status == "converged" for outcome in some)
         lines.append(f"{text}, {more} more where ccx iterates to the end")
@@ -379,10 +389,11 @@ def arguments():
     parser.add_argument("--ccx", default="ccx", help="the command of CalculiX")
     parser.add_argument("--signorini", default="target/release/signorini", help="the command of signorini")
     parser.add_argument("--contact", action="store_true", help="only decks with contact")
+    parser.add_argument("--heat", action="store_true", help="decks that solve for temperatures instead")
     parser.add_argument("--only", nargs="+", metavar="DECK", help="only these, by name")
     parser.add_argument("--timeout", type=float, default=60.0, help="seconds for one deck in one program")
     parser.add_argument("--least-contact", type=int, default=0, metavar="N", help="so many with contact must agree")
-    parser.add_argument("--least-static", type=int, default=0, metavar="N", help="so many static ones must agree")
+    parser.add_argument("--least", type=int, default=0, metavar="N", help="so many of all must agree")
     parser.add_argument("--markdown", metavar="FILE", help="write a page")
     return parser.parse_args()
 
@@ -404,22 +415,22 @@ def main():
         for target in (both.theirs, both.ours):
             unpack(args.decks, target)
         print(in_columns(HEADINGS))
-        for deck, contact in chosen(both.ours, args.contact):
+        for deck, contact in chosen(both.ours, args.contact, args.heat):
             if args.only and deck not in args.only:
                 continue
             outcomes.append(both.compare(deck, contact))
             print(in_columns(cells(outcomes[-1])), flush=True)
     print()
-    print("\n".join(counts(outcomes)))
+    print("\n".join(counts(outcomes, "heat" if args.heat else "static")))
     if args.markdown:
         pathlib.Path(args.markdown).write_text(page(outcomes), encoding="utf-8")
     asked = [
-        ("static", outcomes, args.least_static),
+        ("", outcomes, args.least),
         ("contact", [outcome for outcome in outcomes if outcome.has_contact], args.least_contact),
     ]
     missed = [(name, least) for name, some, least in asked if agreeing(some) < least]
     for name, least in missed:
-        print(f"fewer than {least} {name} decks agree")
+        print(" ".join(f"fewer than {least} {name} decks agree".split()))
     print(f"compare_ccx: {agreeing(outcomes)} passed, {len(outcomes) - agreeing(outcomes)} did not")
     return 1 if missed else 0
 

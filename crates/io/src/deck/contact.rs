@@ -18,8 +18,8 @@ use super::compat::Compat;
 use super::interaction::{Interaction, Law};
 use super::translation::Translation;
 use crate::case::{
-    Area, Basis, Contact, ContactChange, Damping, Enforcement, Features, Friction, Interference,
-    Method, Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
+    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Method,
+    Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -246,12 +246,7 @@ impl Translation<'_> {
         };
         let hard = PENALTY * self.first_modulus();
         let damps = to.damping != [0.0; 2];
-        contact.damping = Damping {
-            normal: to.damping[0],
-            tangential: to.damping[1],
-            // of CalculiX, wherever the spring acts
-            pulls: exact && damps,
-        };
+        contact.damping = to.damping(exact);
         contact.enforcement = match &to.law {
             Law::Hard if exact && method != Method::Mortar => penalty([hard, 0.0, 0.0]),
             Law::Linear(numbers) if exact => penalty(*numbers),
@@ -317,6 +312,8 @@ impl Translation<'_> {
                 contact.per = Some(Per::Area);
             }
         }
+        let of_faces = method != Method::NodeToSegment;
+        (contact.conductance, contact.friction_heat) = self.heat_of_gap(&to.heat, of_faces);
         if let Some(cohesive) = to.bond.cohesive() {
             contact.tied = Some(Tied::default());
             contact.cohesive = Some(cohesive);

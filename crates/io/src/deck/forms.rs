@@ -118,7 +118,19 @@ fn form(card: &Statement) -> Option<Form> {
         "PRE-TENSIONSECTION" => each(AT_MOST_ONE, (0, 3), "a direction of three components"),
         "SOLIDSECTION" => each(AT_MOST_ONE, (0, 1), "a thickness or a cross-section"),
         "SURFACEINTERACTION" => each(AT_MOST_ONE, (0, 1), "a thickness"),
-        "STATIC" | "DYNAMIC" => each(
+        "CFLUX" => each(some, (3, 3), "node or set, 11, heat per time"),
+        "DFLUX" => each(some, (3, 3), "element or set, S1 to S6 or BF, heat"),
+        "DSFLUX" => each(some, (3, 3), "surface, S, heat per time and area"),
+        "FILM" => each(some, (4, 4), "element or set, F1 to F6, sink, coefficient"),
+        "SFILM" => each(some, (4, 4), "surface, F, sink, coefficient"),
+        "RADIATE" => each(some, (4, 4), "element or set, R1 to R6, sink, emissivity"),
+        "SRADIATE" => each(some, (4, 4), "surface, R, sink, emissivity"),
+        "PHYSICALCONSTANTS" => each(NONE, NONE, "no data lines"),
+        "STATIC"
+        | "DYNAMIC"
+        | "HEATTRANSFER"
+        | "COUPLEDTEMPERATURE-DISPLACEMENT"
+        | "UNCOUPLEDTEMPERATURE-DISPLACEMENT" => each(
             AT_MOST_ONE,
             (0, 4),
             "initial increment, period, smallest and largest increment",
@@ -143,6 +155,15 @@ fn property(card: &Statement) -> Option<Form> {
     let terms = card.peek("N").map_or(Some(1), |n| n.trim().parse().ok());
     let terms: Option<usize> = terms.filter(|terms| (1..=6).contains(terms));
     Some(match card.keyword.as_str() {
+        "CONDUCTIVITY" if kind == "ORTHO" => {
+            each(SOME, (3, 4), "three conductivities, temperature")
+        }
+        "CONDUCTIVITY" if kind == "ANISO" => each(SOME, (6, 7), "six conductivities, temperature"),
+        "CONDUCTIVITY" => each(SOME, (1, 2), "conductivity, temperature"),
+        "SPECIFICHEAT" => each(SOME, (1, 2), "specific heat, temperature"),
+        "LATENTHEAT" => each(SOME, (3, 3), "latent heat, solidus, liquidus"),
+        "GAPCONDUCTANCE" => each(SOME, (1, 3), "conductance, gap or pressure, temperature"),
+        "GAPHEATGENERATION" => each(AT_MOST_ONE, (0, 3), "fraction, part of the secondary side"),
         "COHESIVEBEHAVIOR" => each(AT_MOST_ONE, (2, 3), "Knn, Kss, Ktt"),
         "CONTACTDAMPING" => each(ONE, (1, 1), "pressure over velocity"),
         "DAMAGEINITIATION" => each(ONE, (2, 3), "strengths of opening and of both shears"),

@@ -1,7 +1,9 @@
 //! What happens between two surfaces: *SURFACE INTERACTION and what stands in it.
 
 use super::cohesion::Bond;
+use super::heat::GapHeat;
 use super::translation::Translation;
+use crate::case::Damping;
 use crate::diagnostic::codes;
 use crate::readers::inp::{Statement, compared};
 use std::collections::BTreeMap;
@@ -16,6 +18,20 @@ pub(super) struct Interaction {
     pub damping: [f64; 2],
     /// How the surfaces are joined until the joint breaks.
     pub bond: Bond,
+    /// How heat crosses it, and arises in it.
+    pub heat: GapHeat,
+}
+
+impl Interaction {
+    /// What damps it; of CalculiX, wherever the spring acts.
+    pub fn damping(&self, exact: bool) -> Damping {
+        let [normal, tangential] = self.damping;
+        Damping {
+            normal,
+            tangential,
+            pulls: exact && self.damping != [0.0; 2],
+        }
+    }
 }
 
 /// What pressures and overclosures are.
@@ -52,6 +68,8 @@ impl Translation<'_> {
                 "SURFACEBEHAVIOR"
                 | "FRICTION"
                 | "CONTACTDAMPING"
+                | "GAPCONDUCTANCE"
+                | "GAPHEATGENERATION"
                 | "COHESIVEBEHAVIOR"
                 | "DAMAGEINITIATION"
                 | "DAMAGEEVOLUTION"
@@ -65,6 +83,9 @@ impl Translation<'_> {
                         "FRICTION" => one.friction = Some(self.friction(card)),
                         "CONTACTDAMPING" => one.damping = self.contact_damping(card),
                         "SURFACEBEHAVIOR" => one.law = self.law(card),
+                        "GAPCONDUCTANCE" | "GAPHEATGENERATION" => {
+                            self.gap_heat(card, &mut one.heat);
+                        }
                         _ => self.bond(card, &mut one.bond),
                     }
                 }

@@ -57,8 +57,9 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("BEAM SECTION", "beams are not built yet"),
     read(
         "BOUNDARY",
-        "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED, SUBMODEL",
+        "displacements, rotations of rigid bodies, temperatures; AMPLITUDE, OP, FIXED, SUBMODEL",
     ),
+    read("CFLUX", "heat at nodes; AMPLITUDE, OP"),
     read("CHANGE FRICTION", "with FRICTION"),
     read("CHANGE SOLID SECTION", "ELSET of whole sections, MATERIAL"),
     read("CHANGE SURFACE BEHAVIOR", "INTERACTION"),
@@ -71,7 +72,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "COHESIVE BEHAVIOR",
         "Knn, Kss, Ktt, with DAMAGE INITIATION and EVOLUTION; ELIGIBILITY",
     ),
-    ignored("CONDUCTIVITY", "only of heat: temperatures are given"),
+    read("CONDUCTIVITY", "ISO by temperature, ORTHO, ANISO"),
     read(
         "CONTACT",
         "with CONTACT INCLUSIONS: everything that faces one another may touch",
@@ -107,6 +108,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "increments and iterations have controls of their own",
     ),
     read(
+        "COUPLED TEMPERATURE-DISPLACEMENT",
+        "STEADY STATE; one iteration for both",
+    ),
+    read(
         "COUPLING",
         "with KINEMATIC or DISTRIBUTING, of surfaces; ORIENTATION",
     ),
@@ -126,6 +131,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "DEPVAR",
         "the laws of *USER MATERIAL that are built keep no state",
     ),
+    read("DFLUX", "S1 to S6, BF; AMPLITUDE, OP"),
     ignored("DIAGNOSTICS", "every increment is told of"),
     read("DISTRIBUTING", "with COUPLING"),
     read("DISTRIBUTING COUPLING", "of an element of type DCOUP3D"),
@@ -138,12 +144,13 @@ pub const KEYWORDS: &[Keyword] = &[
         "DLOAD",
         "P and P1 to P6, GRAV, CENTRIF; of MASS elements GRAV; AMPLITUDE, OP",
     ),
+    read("DSFLUX", "S; AMPLITUDE, OP"),
     read("DSLOAD", "P; AMPLITUDE, OP"),
     read("DYNAMIC", "DIRECT, ALPHA, EXPLICIT"),
     ignored("EL FILE", "all fields are written anyway"),
     read(
         "EL PRINT",
-        "S, E, ME, PEEQ, ENER, ELSE, EVOL, CENT; TOTALS, FREQUENCY",
+        "S, E, ME, PEEQ, ENER, ELSE, EVOL, CENT, HFL; TOTALS, FREQUENCY",
     ),
     read(
         "ELASTIC",
@@ -166,10 +173,16 @@ pub const KEYWORDS: &[Keyword] = &[
         "of displacements, and of rotations of rigid bodies",
     ),
     read("EXPANSION", "isotropic, by temperature; ZERO"),
+    ignored(
+        "FACE PRINT",
+        "heat through faces is not printed; SECTION PRINT has forces",
+    ),
     ignored("FILE FORMAT", "all fields are written anyway"),
     ignored("FILE OUTPUT", "all fields are written anyway"),
+    read("FILM", "F1 to F6; FILM AMPLITUDE, OP"),
     ignored("FILTER", "all fields are written anyway"),
     ignored("FLUID CONSTANTS", "only of fluids"),
+    refused("FLUID SECTION", "networks of fluids are not built"),
     read(
         "FREQUENCY",
         "number, lowest, highest; with STEP, PERTURBATION about a preloaded state",
@@ -179,13 +192,16 @@ pub const KEYWORDS: &[Keyword] = &[
         "a coefficient, and a stick slope with --compat ccx",
     ),
     read("GAP", "of GAPUNI"),
-    ignored("GAP CONDUCTANCE", "only of heat: temperatures are given"),
-    ignored(
+    read(
+        "GAP CONDUCTANCE",
+        "over the gap; PRESSURE; over the pressure with --compat ccx",
+    ),
+    read(
         "GAP HEAT GENERATION",
-        "only of heat: temperatures are given",
+        "the part of the work of friction, and of that of the secondary side",
     ),
     read("HEADING", "the title"),
-    refused("HEAT TRANSFER", "temperatures are given, not solved for"),
+    read("HEAT TRANSFER", "STEADY STATE; else by backward Euler"),
     read(
         "HYPERELASTIC",
         "NEO HOOKE, MOONEY-RIVLIN, OGDEN; one temperature",
@@ -203,7 +219,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read("INSTANCE", "moved and turned"),
     read("KINEMATIC", "with COUPLING"),
-    ignored("LATENT HEAT", "only of heat: temperatures are given"),
+    read("LATENT HEAT", "with SPECIFIC HEAT"),
     ignored("MAGNETIC PERMEABILITY", "only of currents"),
     read("MASS", "of MASS elements, each with the mass given"),
     read("MATERIAL", ""),
@@ -219,7 +235,7 @@ pub const KEYWORDS: &[Keyword] = &[
     read("NODE", "SYSTEM"),
     ignored("NODE FILE", "all fields are written anyway"),
     ignored("NODE OUTPUT", "all fields are written anyway"),
-    read("NODE PRINT", "U, RF, NT; TOTALS, FREQUENCY"),
+    read("NODE PRINT", "U, RF, NT, RFL; TOTALS, FREQUENCY"),
     read("NSET", "GENERATE, ELSET"),
     read(
         "ORIENTATION",
@@ -227,7 +243,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     ignored("OUTPUT", "all fields are written anyway"),
     read("PART", ""),
-    ignored("PHYSICAL CONSTANTS", "only of heat: temperatures are given"),
+    read("PHYSICAL CONSTANTS", "ABSOLUTE ZERO, STEFAN BOLTZMANN"),
     read(
         "PLASTIC",
         "isotropic, KINEMATIC with one slope; one temperature",
@@ -239,6 +255,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "SECONDARY, MAIN; a node of each, pressure, critical pressure; PENETRATION TIME",
     ),
     ignored("PRINT", "every increment is told of"),
+    read(
+        "RADIATE",
+        "R1 to R6, to surroundings; RADIATION AMPLITUDE, OP",
+    ),
     read("REFINE MESH", "left out, with a warning"),
     ignored(
         "RESTART",
@@ -258,17 +278,19 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     ignored("SECTION FILE", "all fields are written anyway"),
     read("SECTION PRINT", "SURFACE; SOF, SOM, SOAREA"),
+    read("SFILM", "F; FILM AMPLITUDE, OP"),
     refused("SHELL SECTION", "shells are not built yet"),
     read(
         "SOLID SECTION",
         "ELSET, MATERIAL, ORIENTATION, thickness in the plane, cross-section of trusses",
     ),
     ignored("SPECIFIC GAS CONSTANT", "only of fluids"),
-    ignored("SPECIFIC HEAT", "only of heat: temperatures are given"),
+    read("SPECIFIC HEAT", "by temperature"),
     read(
         "SPRING",
         "of SPRINGA, SPRING1, SPRING2; NONLINEAR, at one temperature",
     ),
+    read("SRADIATE", "R, to surroundings; RADIATION AMPLITUDE, OP"),
     read("STATIC", "DIRECT"),
     read("STEP", "NLGEOM, INC, AMPLITUDE"),
     read(
@@ -289,6 +311,10 @@ pub const KEYWORDS: &[Keyword] = &[
     read("TIE", "POSITION TOLERANCE, ADJUST; CYCLIC SYMMETRY"),
     ignored("TIME POINTS", "results are written after every increment"),
     read("TRANSFORM", "TYPE=R, C"),
+    read(
+        "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+        "as COUPLED TEMPERATURE-DISPLACEMENT",
+    ),
     read(
         "USER MATERIAL",
         "LIN_ISO_EL, UNDO_NLGEOM_LIN_ISO_EL, CIARLET_EL, COMPRESSION_ONLY, TENSION_ONLY",

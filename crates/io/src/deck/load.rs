@@ -13,17 +13,67 @@ use signorini_vocabulary::{Chosen, Value, Values};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+/// How something acts on faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Acts {
+    Pressure,
+    Flux,
+    Film,
+    Radiation,
+}
+
+impl Acts {
+    /// How the loads of a card act, and whether on surfaces that it names; none of other cards.
+    fn of(keyword: &str) -> Option<(Self, bool)> {
+        Some(match keyword {
+            "DLOAD" => (Self::Pressure, false),
+            "DSLOAD" => (Self::Pressure, true),
+            "DFLUX" => (Self::Flux, false),
+            "DSFLUX" => (Self::Flux, true),
+            "FILM" => (Self::Film, false),
+            "SFILM" => (Self::Film, true),
+            "RADIATE" => (Self::Radiation, false),
+            "SRADIATE" => (Self::Radiation, true),
+            _ => return None,
+        })
+    }
+
+    /// The letter of its labels.
+    const fn letter(self) -> char {
+        match self {
+            Self::Pressure => 'P',
+            Self::Flux => 'S',
+            Self::Film => 'F',
+            Self::Radiation => 'R',
+        }
+    }
+
+    /// What acts, by the values behind the label.
+    fn kind(self, [first, second]: [f64; 2]) -> Chosen {
+        match self {
+            Self::Pressure => Chosen::bare("pressure", Value::Number(first)),
+            Self::Flux => Chosen::bare("heat_flux", Value::Number(first)),
+            Self::Film => Chosen::new("film", [("h", second), ("sink", first)]),
+            Self::Radiation => Chosen::new("radiation", [("emissivity", second), ("sink", first)]),
+        }
+    }
+}
+
 /// Where something acts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Where {
     /// Along a degree of freedom of a node.
     Node(u64, usize),
+    /// Heat at a node.
+    Heated(u64),
     /// On a reference: a force, or a moment.
     Reference(String, bool, usize),
     /// On a side of an element.
-    Side(u64, u8),
+    Side(Acts, u64, u8),
     /// On a surface.
-    Surface(String),
+    Surface(Acts, String),
+    /// A source of heat in an element set.
+    Source(Target),
     /// On all mass of an element set, by a line that no other one is like.
     Mass(Target, String),
     /// On a mass at a node, of such a set and line.
@@ -72,26 +122,26 @@ impl Loads {
         }
     }
 
-    /// Takes back all that cards of a kind have put there in earlier steps.
-    fn clear(&mut self, of: fn(&Where) -> bool) {
+    /// Takes back all that cards of a keyword have put there in earlier steps.
+    fn clear(&mut self, keyword: &str) {
         let named = &self.named;
-        self.acting.retain(|at, _| !of(at) || named.contains(at));
+        self.acting
+            .retain(|at, _| !at.is_of(keyword) || named.contains(at));
     }
 }
 
-fn is_concentrated(at: &Where) -> bool {
-    matches!(at, Where::Node(..) | Where::Reference(..))
-}
-
-fn is_distributed(at: &Where) -> bool {
-    matches!(
-        at,
-        Where::Side(..) | Where::Mass(..) | Where::Weight(..) | Where::WeightOf(..)
-    )
-}
-
-fn is_on_surface(at: &Where) -> bool {
-    matches!(at, Where::Surface(_))
+impl Where {
+    /// Whether cards of a keyword act there.
+    fn is_of(&self, keyword: &str) -> bool {
+        match self {
+            Self::Node(..) | Self::Reference(..) => keyword == "CLOAD",
+            Self::Heated(_) => keyword == "CFLUX",
+            Self::Side(acts, ..) => Acts::of(keyword) == Some((*acts, false)),
+            Self::Surface(acts, _) => Acts::of(keyword) == Some((*acts, true)),
+            Self::Source(_) => keyword == "DFLUX",
+            Self::Mass(..) | Self::Weight(..) | Self::WeightOf(..) => keyword == "DLOAD",
+        }
+    }
 }
 
 /// Two loads of one kind together.
@@ -114,7 +164,7 @@ fn sum(a: &Chosen, b: &Chosen) -> Chosen {
 fn nothing(of: &Chosen) -> Chosen {
     let values = of.values.iter().map(|(key, value)| {
         let value = match value {
-            Value::Number(_) if key == of.name || key == SPEED => Value::Number(0.0),
+            Value::Number(_) if key == of.name || SIZES.contains(&key) => Value::Number(0.0),
             Value::Numbers(numbers) if key == of.name => Value::Numbers(vec![0.0; numbers.len()]),
             other => other.clone(),
         };
@@ -130,26 +180,20 @@ fn nothing(of: &Chosen) -> Chosen {
 
 /// The key of a centrifugal load that is its size.
 const SPEED: &str = "speed";
+/// The keys of loads that are their sizes, where these are not called as the load is.
+const SIZES: [&str; 3] = [SPEED, "h", "emissivity"];
 
 /// A load that is a vector.
 pub(super) fn vector(name: &'static str, vector: impl Into<[f64; 3]>) -> Chosen {
     Chosen::bare(name, Value::Numbers(vector.into().to_vec()))
 }
 
-fn pressure(pressure: f64) -> Chosen {
-    Chosen::bare("pressure", Value::Number(pressure))
-}
-
 impl Translation<'_> {
     /// What a card adds to the loads.
     pub fn load(&mut self, card: &Statement, renews: bool, loads: &mut Loads) {
-        let amplitude = self.amplitude(card);
+        let amplitude = self.amplitude_of_load(card);
         if renews {
-            loads.clear(match card.keyword.as_str() {
-                "CLOAD" => is_concentrated,
-                "DSLOAD" => is_on_surface,
-                _ => is_distributed,
-            });
+            loads.clear(&card.keyword);
         }
         for row in card.rows() {
             let place = row.first().map_or(card.place.clone(), Field::place);
@@ -164,26 +208,85 @@ impl Translation<'_> {
                         loads.put(at, what(kind));
                     }
                 }
-                "DSLOAD" => {
-                    let Some(first) = row.first() else { continue };
-                    let Some(on) = self.set(card, first.text, &place, Kind::Surface) else {
-                        continue;
-                    };
-                    if row.get(1).is_some_and(|label| label.key() != "P") {
-                        let text = "*DSLOAD has only pressures P here";
-                        self.error(&codes::NOT_BUILT, text, &place, "");
-                        continue;
+                "CFLUX" => {
+                    let power = self.real(row.get(2));
+                    let kind = Chosen::bare("heat_power", Value::Number(power));
+                    for label in self.heated(card, &row) {
+                        loads.put(Where::Heated(label), what(kind.clone()));
                     }
-                    let pressure = self.real(row.get(2));
-                    loads.put(Where::Surface(on.value), what(self::pressure(pressure)));
+                }
+                "DLOAD" => {
+                    for (at, kind) in self.distributed(card, &row) {
+                        loads.put(at, what(kind));
+                    }
                 }
                 _ => {
-                    for (at, kind) in self.distributed(card, &row) {
+                    for (at, kind) in self.on_faces(card, &row) {
                         loads.put(at, what(kind));
                     }
                 }
             }
         }
+    }
+
+    /// The amplitude of a card. Films and radiation have one of their own; what AMPLITUDE means there is the temperature around.
+    fn amplitude_of_load(&mut self, card: &Statement) -> Option<Name> {
+        let (name, delay) = match card.keyword.as_str() {
+            "FILM" | "SFILM" => ("FILMAMPLITUDE", "FILMTIMEDELAY"),
+            "RADIATE" | "SRADIATE" => ("RADIATIONAMPLITUDE", "RADIATIONTIMEDELAY"),
+            _ => return self.amplitude(card),
+        };
+        if card.has("AMPLITUDE") {
+            let text = format!("AMPLITUDE of *{} is not supported", card.title);
+            let remark = "the temperature around has no course: a step for each";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
+        }
+        self.amplitude_by(card, name, delay)
+    }
+
+    /// A line of a card whose loads act on faces: of a surface, or a side of elements.
+    fn on_faces(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, Chosen)> {
+        let Some((acts, of_surface)) = Acts::of(&card.keyword) else {
+            return Vec::new();
+        };
+        let place = row.first().map_or(card.place.clone(), Field::place);
+        let label = row.get(1).map(Field::key).unwrap_or_default();
+        let kind = acts.kind(self.reals(row.get(2..).unwrap_or_default()));
+        let side = label.strip_prefix(acts.letter());
+        if of_surface {
+            let Some(first) = row.first() else {
+                return Vec::new();
+            };
+            let Some(on) = self.set(card, first.text, &place, Kind::Surface) else {
+                return Vec::new();
+            };
+            if label.is_empty() || side == Some("") {
+                return vec![(Where::Surface(acts, on.value), kind)];
+            }
+            match acts {
+                Acts::Pressure => {
+                    let text = "*DSLOAD has only pressures P here";
+                    self.error(&codes::NOT_BUILT, text, &place, "");
+                }
+                _ => self.no_such_heat(card, &label, &place),
+            }
+            return Vec::new();
+        }
+        let targets = self.targets(card, row.first(), Kind::Elements);
+        if acts == Acts::Flux && label == "BF" {
+            let density = self.real(row.get(2));
+            let source = Chosen::bare("heat_source", Value::Number(density));
+            let sources = targets.into_iter().map(Where::Source);
+            return sources.map(|at| (at, source.clone())).collect();
+        }
+        let side = side.and_then(|side| side.parse::<u8>().ok());
+        let Some(side) = side.filter(|side| *side > 0) else {
+            self.no_such_heat(card, &label, &place);
+            return Vec::new();
+        };
+        let elements = targets.iter().flat_map(|target| self.elements(target));
+        let at = |element| (Where::Side(acts, element, side), kind.clone());
+        elements.map(at).collect()
     }
 
     /// A line of *CLOAD.
@@ -319,7 +422,8 @@ impl Translation<'_> {
                     return Vec::new();
                 };
                 let elements = targets.iter().flat_map(|target| self.elements(target));
-                let at = |element| (Where::Side(element, side), self::pressure(value));
+                let kind = Acts::Pressure.kind([value, 0.0]);
+                let at = |element| (Where::Side(Acts::Pressure, element, side), kind.clone());
                 elements.map(at).collect()
             }
         }
@@ -377,16 +481,17 @@ impl Translation<'_> {
     fn members_named(&mut self, members: &BTreeSet<Where>, place: &Place) -> Name {
         let named = |name: &str| Spanned::new(name.to_owned(), place.clone());
         match members.first() {
-            Some(Where::Reference(name, ..) | Where::Surface(name) | Where::WeightOf(name, ..)) => {
+            Some(Where::Reference(name, ..) | Where::Surface(_, name)) => named(name),
+            Some(Where::WeightOf(name, ..)) => named(name),
+            Some(Where::Mass(Target::Set(name), _) | Where::Source(Target::Set(name))) => {
                 named(name)
             }
-            Some(Where::Mass(Target::Set(name), _)) => named(name),
-            Some(Where::Mass(Target::One(element), _)) => {
+            Some(Where::Mass(Target::One(element), _) | Where::Source(Target::One(element))) => {
                 self.elements_named(vec![*element], place)
             }
             Some(Where::Side(..)) => {
                 let sides = members.iter().filter_map(|at| match at {
-                    Where::Side(element, side) => Some((*element, *side)),
+                    Where::Side(_, element, side) => Some((*element, *side)),
                     _ => None,
                 });
                 self.sides_named(sides.collect(), place)
@@ -394,6 +499,7 @@ impl Translation<'_> {
             _ => {
                 let nodes = members.iter().filter_map(|at| match at {
                     Where::Node(label, _) | Where::Weight(label, ..) => Some(*label),
+                    Where::Heated(label) => Some(*label),
                     _ => None,
                 });
                 self.nodes_named(nodes.collect(), place)
@@ -454,14 +560,18 @@ fn likeness(what: &What) -> u64 {
 
 /// Whether others may be one load with it.
 fn may_go_together(at: &Where) -> bool {
-    matches!(at, Where::Node(..) | Where::Side(..) | Where::Weight(..))
+    matches!(
+        at,
+        Where::Node(..) | Where::Heated(_) | Where::Side(..) | Where::Weight(..)
+    )
 }
 
 /// Whether two may be one load.
 fn goes_with(a: &Where, b: &Where) -> bool {
     match (a, b) {
         (Where::Node(_, a), Where::Node(_, b)) => a == b,
-        (Where::Side(..), Where::Side(..)) => true,
+        (Where::Heated(_), Where::Heated(_)) => true,
+        (Where::Side(a, ..), Where::Side(b, ..)) => a == b,
         (Where::Weight(_, a, by), Where::Weight(_, b, with)) => a == b && by == with,
         _ => false,
     }
@@ -473,6 +583,13 @@ fn load_of(group: &Group, sudden: bool, duration: f64) -> Load {
         amplitude,
         place,
     } = group.what.clone();
+    // the power of all nodes together
+    let kind = match (group.members.first(), kind.bare_value()) {
+        (Some(Where::Heated(_)), Some(Value::Number(each))) => {
+            Chosen::bare(kind.name, Value::Number(each * group.members.len() as f64))
+        }
+        _ => kind,
+    };
     Load {
         name: Some(group.name.clone()),
         on: group.on.clone(),
@@ -514,6 +631,7 @@ mod tests {
         }
         let numbers: BTreeSet<u64> = groups.iter().map(|(_, what)| likeness(what)).collect();
         assert_eq!(numbers.len(), 40);
+        let pressure = |p: f64| Acts::Pressure.kind([p, 0.0]);
         let zero = |z: f64| likeness(&what(pressure(z)));
         assert_eq!(zero(0.0), zero(-0.0));
     }

@@ -1,6 +1,7 @@
 //! Materials: their constants, density, expansion, yield stresses.
 
 use super::forms::needs_data;
+use super::heat::HeatProperties;
 use super::translation::Translation;
 use crate::case::{
     Constant, Expansion, Hardening, Material, MaterialDamping, Name, Plasticity, Unstrained,
@@ -23,6 +24,7 @@ pub(super) struct Properties {
     density: Option<Spanned<f64>>,
     expansion: Option<Expansion>,
     plasticity: Option<Plasticity>,
+    pub heat: HeatProperties,
     place: Place,
 }
 
@@ -72,6 +74,9 @@ impl Translation<'_> {
                 | "HYPERELASTIC"
                 | "HYPERFOAM"
                 | "USERMATERIAL"
+                | "CONDUCTIVITY"
+                | "SPECIFICHEAT"
+                | "LATENTHEAT"
                 | "DEFORMATIONPLASTICITY" => {
                     let Some(mut material) = open.take() else {
                         let text = format!("*{} stands in no *MATERIAL", card.title);
@@ -116,6 +121,12 @@ impl Translation<'_> {
             return;
         };
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
+        let is_of_heat =
+            ["CONDUCTIVITY", "SPECIFICHEAT", "LATENTHEAT"].contains(&card.keyword.as_str());
+        if is_of_heat {
+            self.heat_property(card, &mut material.heat, &rows);
+            return;
+        }
         if !["DENSITY", "EXPANSION", "PLASTIC"].contains(&card.keyword.as_str()) {
             material.of_law = first.first().map_or(card.place.clone(), Field::place);
         }
@@ -355,7 +366,12 @@ impl Translation<'_> {
 }
 
 fn case_of(of: Properties) -> Option<Material> {
-    let (model, constants) = of.law?;
+    let heat = of.heat.case_of(of.density.is_some());
+    // without a law it conducts alone
+    if of.law.is_none() && heat.is_none() {
+        return None;
+    }
+    let (model, constants) = of.law.unwrap_or_default();
     Some(Material {
         name: of.name,
         model: model.into(),
@@ -369,7 +385,7 @@ fn case_of(of: Properties) -> Option<Material> {
         density: of.density,
         damping: MaterialDamping::default(),
         expansion: of.expansion,
-        heat: None,
+        heat,
         plasticity: of.plasticity,
         place: of.place,
     })

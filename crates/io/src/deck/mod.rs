@@ -11,8 +11,10 @@
 //!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps
 //!                                  penetration fluids between the surfaces of pairs
+//!                                  heat        heat of materials and gaps, and what acts at nodes
 //!                                  submodel    nodes that move as those of another model
-//!                                  step        supports, loads, temperatures, changes, printed tables
+//!                                  step        supports, loads, changes, printed tables
+//!                                  temperature temperatures that steps give, hold and solve for
 //! ```
 //!
 //! The model section is free in its order: every stage looks for its cards in the whole of it. A name means what it
@@ -35,6 +37,7 @@ mod contact;
 mod forms;
 mod frequency;
 mod general;
+mod heat;
 mod interaction;
 mod keywords;
 mod load;
@@ -52,6 +55,7 @@ mod sections;
 mod spring;
 mod step;
 mod submodel;
+mod temperature;
 #[cfg(test)]
 mod tests;
 mod translation;

@@ -8,7 +8,7 @@ use crate::case::{
     Unstrained,
 };
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
-use crate::readers::inp::{Field, Kind, Statement, compared};
+use crate::readers::inp::{Field, Kind, Statement, compared, spelled};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Elements whose integration points are numbered as ours are.
@@ -53,6 +53,7 @@ impl Translation<'_> {
     pub fn model(&mut self) {
         self.title();
         self.space();
+        self.physical_constants();
         self.materials();
         self.start_temperature();
         self.at_start();
@@ -84,8 +85,8 @@ impl Translation<'_> {
         let space = match dim {
             0 | 3 => Space::ThreeD,
             1 if !of("T2D") => Space::ThreeD,
-            _ if of("CAX") => Space::Axisymmetric,
-            _ if of("CPS") => Space::PlaneStress,
+            _ if of("CAX") || of("DCAX") => Space::Axisymmetric,
+            _ if of("CPS") || of("DC2D") => Space::PlaneStress,
             _ => Space::PlaneStrain,
         };
         if space == Space::Axisymmetric && of("CPE") {
@@ -280,12 +281,17 @@ impl Translation<'_> {
 
     /// The name of an amplitude as the case has it.
     pub fn amplitude(&mut self, card: &Statement) -> Option<Name> {
-        let wanted = card.get("AMPLITUDE")?;
+        self.amplitude_by(card, "AMPLITUDE", "TIMEDELAY")
+    }
+
+    /// The amplitude that a parameter of a card names, later by another parameter.
+    pub fn amplitude_by(&mut self, card: &Statement, name: &str, delay: &str) -> Option<Name> {
+        let wanted = card.get(name)?;
         let known = self.amplitudes.get(&compared(wanted));
         let known = known.and_then(|&number| self.case.amplitudes.get(number));
         match known.map(|one| one.name.value.clone()) {
             Some(name) => {
-                let name = self.delayed(card, name);
+                let name = self.delayed(card, name, delay);
                 Some(Spanned::new(name, card.place.clone()))
             }
             None => {
@@ -296,9 +302,10 @@ impl Translation<'_> {
         }
     }
 
-    /// The amplitude that is this one later, where a card has a TIME DELAY.
-    fn delayed(&mut self, card: &Statement, name: String) -> String {
-        let Some(delay) = self.parameter(card, "TIMEDELAY", "TIME DELAY") else {
+    /// The amplitude that is this one later, where a card has a time of delay.
+    fn delayed(&mut self, card: &Statement, name: String, delay: &str) -> String {
+        let shown = spelled(&card.keyword, delay);
+        let Some(delay) = self.parameter(card, delay, shown) else {
             return name;
         };
         let mut all = self.case.amplitudes.iter();
@@ -342,7 +349,8 @@ impl Translation<'_> {
             if !known.has_law() && known.is_refused() {
                 continue;
             }
-            if !known.has_law() {
+            let conducts_alone = known.heat.conducts() && self.is_all_heat();
+            if !known.has_law() && !conducts_alone {
                 let text = format!("material `{material}` has no elastic constants");
                 let one = Diagnostic::error(&codes::MISSING, text)
                     .at(&card.place, "it is used here")

@@ -12,6 +12,7 @@ fn quantities(of: PrintOf) -> &'static [(&'static str, &'static str)] {
             ("U", "displacement"),
             ("RF", "reaction"),
             ("NT", "temperature"),
+            ("RFL", "heat-reaction"),
         ],
         PrintOf::Elements => &[
             ("S", "stress"),
@@ -22,6 +23,7 @@ fn quantities(of: PrintOf) -> &'static [(&'static str, &'static str)] {
             ("ELSE", "energy"),
             ("EVOL", "volume"),
             ("CENT", "spin-squared"),
+            ("HFL", "heat-flux"),
         ],
         PrintOf::Contact => &[
             ("CDIS", "gap"),

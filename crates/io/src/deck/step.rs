@@ -5,6 +5,8 @@
 //! make a vector; fewer are equations, which hold for the whole run.
 
 use super::axes::along;
+use super::compat::Compat;
+use super::heat::{PROCEDURES, TEMPERATURE};
 use super::load::Loads;
 use super::translation::{Target, Translation};
 use crate::case::{
@@ -20,7 +22,7 @@ const INTERVALS: u64 = 20;
 
 /// The course of a component.
 #[derive(Clone, Debug, PartialEq)]
-enum Course {
+pub(super) enum Course {
     /// Stays where it is.
     Stay,
     /// Reaches a value.
@@ -28,14 +30,20 @@ enum Course {
 }
 
 /// A line of *BOUNDARY, or several that differ in their nodes alone.
-struct Line {
-    targets: Vec<Target>,
+pub(super) struct Line {
+    pub targets: Vec<Target>,
     /// Whether these are single nodes.
     single: bool,
-    /// Components, from 0.
+    /// Components, from 0; a temperature comes after those of motions, and alone.
     components: Vec<usize>,
-    course: Course,
-    place: Place,
+    pub course: Course,
+    pub place: Place,
+}
+
+impl Line {
+    fn is_of_heat(&self) -> bool {
+        self.components.contains(&TEMPERATURE)
+    }
 }
 
 /// What earlier steps leave behind.
@@ -49,6 +57,11 @@ pub(super) struct Standing {
     along: BTreeMap<u64, [f64; 3]>,
     nonlinear: bool,
     pub loads: Loads,
+    /// Temperatures that wait for a step that solves for them.
+    cold: Vec<Line>,
+    /// What steps have given temperatures to: by *BOUNDARY, and by *TEMPERATURE.
+    pub warm: Vec<Name>,
+    pub given: Vec<Name>,
 }
 
 impl Translation<'_> {
@@ -103,7 +116,7 @@ impl Translation<'_> {
             } else {
                 Geometry::Linear
             },
-            ..Step::of_nothing(name, place)
+            ..Step::of_nothing(name, place.clone())
         };
         self.time(number, cards, &mut step);
         let mut lines = Vec::new();
@@ -132,10 +145,11 @@ impl Translation<'_> {
                     }
                     self.boundary(card, &mut lines);
                 }
-                "CLOAD" | "DLOAD" | "DSLOAD" => {
+                "CLOAD" | "DLOAD" | "DSLOAD" | "CFLUX" | "DFLUX" | "DSFLUX" | "FILM" | "SFILM"
+                | "RADIATE" | "SRADIATE" => {
                     self.load(card, renews, &mut standing.loads);
                 }
-                "TEMPERATURE" => self.temperatures(card, &mut step),
+                "TEMPERATURE" => self.temperatures(card, standing, &mut step),
                 "PRESSUREPENETRATION" => self.penetration(card, &mut step),
                 "MODELCHANGE" => self.model_change(card, &mut step),
                 "CHANGESOLIDSECTION" => self.change_section(card, &mut step),
@@ -159,18 +173,28 @@ impl Translation<'_> {
         }
         self.write_loads(&mut standing.loads, sudden, &mut step);
         let lines = self.without_replaced(lines);
+        let (warm, lines): (Vec<_>, Vec<_>) = lines.into_iter().partition(Line::is_of_heat);
+        standing.cold.extend(warm);
+        if step.thermal.is_some() {
+            let given = std::mem::take(&mut standing.given);
+            self.free_temperatures(given, &mut step, &place);
+            let lines = std::mem::take(&mut standing.cold);
+            if number == 0 && self.compat == Compat::Ccx {
+                self.start_with(&lines, &step);
+            }
+            self.hold_temperatures(lines, sudden, standing, &mut step);
+        }
         self.prescribe(lines, number, sudden, standing, &mut step);
         self.still(&mut step);
         step
     }
 
     fn time(&mut self, number: usize, cards: &[&Statement], step: &mut Step) {
-        let procedures = ["STATIC", "DYNAMIC", "FREQUENCY"];
-        let Some(card) = cards
-            .iter()
-            .find(|c| procedures.contains(&c.keyword.as_str()))
-        else {
-            let known = ["COMPLEXFREQUENCY", "HEATTRANSFER", "VISCO"];
+        let is_procedure = |keyword: &str| {
+            ["STATIC", "DYNAMIC", "FREQUENCY"].contains(&keyword) || PROCEDURES.contains(&keyword)
+        };
+        let Some(card) = cards.iter().find(|c| is_procedure(&c.keyword)) else {
+            let known = ["COMPLEXFREQUENCY", "VISCO"];
             // those are reported by their keyword
             if !cards
                 .iter()
@@ -189,6 +213,7 @@ impl Translation<'_> {
             return;
         };
         step.duration = period;
+        step.thermal = self.thermal(card, cards.first().copied());
         if card.keyword == "DYNAMIC" {
             self.dynamic(card, step);
         }
@@ -346,7 +371,12 @@ impl Translation<'_> {
                 None => {
                     let first = self.count(row.get(1), 0);
                     let last = self.count(row.get(2), first);
-                    let Some(components) = components(first, last) else {
+                    let of_heat = (first, last) == (11, 11) || (first, last) == (0, 0);
+                    let all = match of_heat && self.solves_for_heat() {
+                        true => Some(vec![TEMPERATURE]),
+                        false => components(first, last),
+                    };
+                    let Some(components) = all else {
                         if !(first == 11 || first == 8) {
                             let text = format!("there are no degrees of freedom {first} to {last}");
                             self.error(&codes::OUT_OF_RANGE, text, &place, "1 to 6");
@@ -356,10 +386,11 @@ impl Translation<'_> {
                     (components, self.real(row.get(3)))
                 }
             };
+            let has_amplitude = value != 0.0 || components == [TEMPERATURE];
             let course = if card.has("FIXED") {
                 Course::Stay
             } else {
-                Course::To(value, amplitude.clone().filter(|_| value != 0.0))
+                Course::To(value, amplitude.clone().filter(|_| has_amplitude))
             };
             let single = targets
                 .iter()
@@ -439,6 +470,8 @@ impl Translation<'_> {
             let text = "*BOUNDARY, OP=NEW where nodes are held along local axes is not supported";
             self.error(&codes::NOT_BUILT, text, place, "");
         }
+        let warm = std::mem::take(&mut standing.warm);
+        self.free_temperatures(warm, step, place);
         let mut by_target: BTreeMap<Target, Vec<usize>> = BTreeMap::new();
         for (target, component) in std::mem::take(&mut standing.held).into_keys() {
             by_target.entry(target).or_default().push(component);
@@ -694,27 +727,6 @@ impl Translation<'_> {
             coefficient: -1.0,
         }
     }
-
-    fn temperatures(&mut self, card: &Statement, step: &mut Step) {
-        if card.has("AMPLITUDE") || card.has("FILE") {
-            let text = "*TEMPERATURE with AMPLITUDE or FILE is not supported";
-            self.error(&codes::NOT_BUILT, text, &card.place, "");
-            return;
-        }
-        for row in card.rows() {
-            let targets = self.targets(card, row.first(), Kind::Nodes);
-            let value = self.real(row.get(1));
-            if targets.is_empty() {
-                continue;
-            }
-            let on = self.named(&targets, &card.place);
-            step.temperatures.push(crate::case::Temperature {
-                on,
-                value: Motion::Ramp(value),
-                place: card.place.clone(),
-            });
-        }
-    }
 }
 
 fn along_x(reference: &str, course: Motion, place: &Place) -> Move {
@@ -727,7 +739,7 @@ fn along_x(reference: &str, course: Motion, place: &Place) -> Move {
     }
 }
 
-fn motion(value: f64, amplitude: Option<&Name>, sudden: bool, duration: f64) -> Motion {
+pub(super) fn motion(value: f64, amplitude: Option<&Name>, sudden: bool, duration: f64) -> Motion {
     match amplitude {
         Some(name) => Motion::Amplitude {
             name: name.clone(),

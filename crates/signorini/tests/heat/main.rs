@@ -12,6 +12,7 @@ mod boxes;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;
+mod decks;
 mod rods;
 mod tangent;
 mod time;

@@ -3,6 +3,7 @@ mod constraints;
 mod contact;
 mod frequency;
 mod general;
+mod heat;
 mod mass;
 mod materials;
 mod motion;

@@ -115,7 +115,8 @@ const FAMILIES: [(&str, Role, Sizes); 43] = [
     ("T2D", Role::Truss, LINES), ("T3D", Role::Truss, LINES),
     ("B2", Role::Beam, BEAMS), ("B3", Role::Beam, BEAMS), ("PIPE2", Role::Beam, BEAMS), ("PIPE3", Role::Beam, BEAMS),
     ("SAX", Role::Beam, BY_ORDER), ("MAX", Role::Beam, BY_ORDER), ("SFMAX", Role::Beam, BY_ORDER),
-    ("D", Role::Special, &[("", 3, "")]),
+    // of networks, whose ends have nodes of number 0
+    ("D", Role::Special, &[("", 0, "")]),
     ("MASS", Role::Special, ONE), ("ROTARYI", Role::Special, ONE), ("HEATCAP", Role::Special, ONE),
     ("DCOUP", Role::Special, &[("2D", 1, ""), ("3D", 1, "")]),
     ("SPRING", Role::Special, &[("1", 1, ""), ("2", 2, ""), ("", 2, "")]),
@@ -259,7 +260,7 @@ mod tests {
             ("CONN3D2", Role::Special, 2),
             ("DCOUP3D", Role::Special, 1),
             ("U1", Role::Special, 0),
-            ("D", Role::Special, 3),
+            ("D", Role::Special, 0),
             ("DC3D8", Role::Solid, 8),
         ] {
             let kind = Kind::find(name).unwrap_or_else(|| panic!("{name}"));
