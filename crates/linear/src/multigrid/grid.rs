@@ -182,6 +182,16 @@ impl Grid {
         grid
     }
 
+    /// Whether there is anything that a hierarchy serves: bodies that deform, or another field of theirs.
+    pub(super) fn has_rows(&self) -> bool {
+        self.deforms() || !self.components.is_empty()
+    }
+
+    /// Whether bodies deform.
+    fn deforms(&self) -> bool {
+        !self.fine.node.is_empty()
+    }
+
     /// Takes note of another interface, with other equations.
     pub(super) fn follow(&mut self, kept: &Kept) {
         self.block = InterfaceBlock::new();
@@ -381,7 +391,7 @@ impl Grid {
         why: Why,
         notes: &mut Vec<Note>,
     ) -> Result<bool, LinearError> {
-        if kept.is_definite() {
+        if kept.is_definite() || !self.deforms() {
             // that of everything is no larger
             return Ok(false);
         }
@@ -417,14 +427,15 @@ impl Grid {
                 return Ok(false);
             }
         }
-        if !self.has_factor {
+        if !self.has_factor && self.deforms() {
             notes.extend(self.renew(kept, values));
         }
         if self.hierarchy.is_none() {
             self.factorize(kept, values, Why::NotPositive, notes)?;
         }
+        let alone = !self.deforms() || self.factor.is_there();
         let why = match &mut self.hierarchy {
-            None if self.factor.is_there() => match self.block.update(kept, values) {
+            None if alone => match self.block.update(kept, values) {
                 Ok(()) => return Ok(true),
                 Err(LinearError::Singular { .. }) => Why::Interface,
                 Err(other) => return Err(other),
@@ -652,6 +663,7 @@ impl OneGrid<'_> {
                     f64::from(x.get(unknown as usize).copied().unwrap_or(0.0)) * scale
                 });
             }
+            None if numbers.of_row.is_empty() => z.fill(0.0),
             None => factor.apply(right, &numbers.of_row, &numbers.fine, z)?,
         }
         for component in components {

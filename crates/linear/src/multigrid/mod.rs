@@ -167,7 +167,7 @@ impl LinearSolver for Multigrid {
                 grid.follow(&kept);
                 Some(grid)
             }
-            _ if suits => Some(Grid::new(&kept)).filter(|grid| !grid.fine.node.is_empty()),
+            _ if suits => Some(Grid::new(&kept)).filter(Grid::has_rows),
             _ => None,
         };
         if let Some(grid) = &mut self.grid {

@@ -468,3 +468,85 @@ fn a_free_body_is_singular_at_last() {
         "{outcome:?}"
     );
 }
+
+/// Conduction through a grid of n × n × n points of which one face is held, heated along the way: `ΔT = 1` of unit spacing.
+#[test]
+fn a_field_alone_has_a_hierarchy_of_its_own() {
+    for (n, most) in [(12, 14), (24, 18)] {
+        let number = |x: usize, y: usize, z: usize| x + n * (y + n * z);
+        let nnode = n * n * n;
+        let first = 3 * nnode as u32;
+        let (mut dofs, mut offsets) = (Vec::new(), vec![0]);
+        let mut coordinates = Vec::new();
+        for z in 0..n {
+            for y in 0..n {
+                for x in 0..n {
+                    coordinates.push([x as f64, y as f64, z as f64]);
+                    for (a, b, c) in [(1, 0, 0), (0, 1, 0), (0, 0, 1)] {
+                        if x + a < n && y + b < n && z + c < n {
+                            let ends = [number(x, y, z), number(x + a, y + b, z + c)];
+                            dofs.extend(ends.map(|end| first + end as u32));
+                            offsets.push(dofs.len());
+                        }
+                    }
+                }
+            }
+        }
+        let ndof = 4 * nnode;
+        let interface = Pattern::from_cliques(ndof, &dofs, &offsets);
+        let mut conduction = vec![0.0; interface.column.len()];
+        for pair in dofs.chunks(2) {
+            for (row, column, k) in [(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)] {
+                conduction[interface.position(pair[row], pair[column]).unwrap()] += k;
+            }
+        }
+        let mut equation = vec![NONE; ndof];
+        let free = (0..nnode).filter(|node| node % n != 0);
+        let mut nequation = 0;
+        for node in free {
+            equation[first as usize + node] = nequation;
+            nequation += 1;
+        }
+        let bulk = BlockPattern::from_cliques(nnode, 3, &[], &[0]);
+        let problem = Problem {
+            ndof,
+            bulk: &bulk,
+            interface: &interface,
+            fields: &[crate::FieldBlock { first, width: 1 }],
+            equation: &equation,
+            nequation: nequation as usize,
+            symmetry: Symmetry::Definite,
+            sign: &vec![1; nequation as usize],
+            coordinates: &coordinates,
+            between: &[],
+        };
+        let values = Values {
+            bulk: &vec![0.0; bulk.nvalue()],
+            interface: &conduction,
+        };
+        let mut solver = Multigrid::new();
+        solver.analyze(&problem).unwrap();
+        solver.factorize(&values).unwrap();
+        // the heat of x = n − 1, all of which goes to x = 0
+        let at_end = |node: usize| node % n == n - 1;
+        let rhs: Vec<f64> = (0..nnode)
+            .filter(|node| node % n != 0)
+            .map(|node| if at_end(node) { 1.0 } else { 0.0 })
+            .collect();
+        let mut x = vec![0.0; rhs.len()];
+        let report = solver.solve(&values, &rhs, &mut x, 1e-10).unwrap();
+        assert!(
+            solver.is_multigrid() && report.iterations <= most,
+            "{n}: {report:?}"
+        );
+        for (node, &e) in (0..nnode).zip(&equation[first as usize..]) {
+            if e != NONE {
+                let expected = (node % n) as f64;
+                assert!(
+                    (x[e as usize] - expected).abs() < 1e-6 * n as f64,
+                    "{n} {node}"
+                );
+            }
+        }
+    }
+}
