@@ -98,6 +98,8 @@ pub(super) struct Work {
     pub(super) raw_x: Vec<f64>,
     pub(super) raw_y: Vec<f64>,
     pub(super) right: Vec<f64>,
+    /// Changes of other fields, and what they leave.
+    pub(super) of_fields: [Vec<f64>; 2],
     pub(super) b: Vec<[f32; 3]>,
     pub(super) x: Vec<[f32; 3]>,
 }
@@ -632,7 +634,28 @@ impl OneGrid<'_> {
         fill(y, &numbers.raw, |&dof| raw_y[dof as usize]);
     }
 
+    /// Changes of other fields, and what they leave of the residuals of the bodies: fields first, as temperatures move bodies more
+    /// than bodies change temperatures.
+    fn fields(&mut self, r: &[f64]) -> Option<[Vec<f64>; 2]> {
+        if self.symmetric || self.grid.components.is_empty() || !self.grid.deforms() {
+            return None;
+        }
+        let [mut z, mut left] = std::mem::take(&mut self.grid.work.of_fields);
+        z.clear();
+        z.resize(r.len(), 0.0);
+        left.resize(r.len(), 0.0);
+        for component in &mut self.grid.components {
+            component.apply(r, &mut z);
+        }
+        self.multiply(&z, &mut left);
+        left.iter_mut()
+            .zip(r)
+            .for_each(|(left, r)| *left = r - *left);
+        Some([z, left])
+    }
+
     fn cycle(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
+        let fields = self.fields(r);
         let Grid {
             hierarchy,
             factor,
@@ -648,7 +671,11 @@ impl OneGrid<'_> {
             work.right.copy_from_slice(r);
             block.before(&mut work.right)?;
         }
-        let right = if two_sided { &work.right } else { r };
+        let right = match &fields {
+            Some([_, left]) => left,
+            None if two_sided => work.right.as_slice(),
+            None => r,
+        };
         match hierarchy {
             Some(hierarchy) => {
                 // single precision has few powers of ten
@@ -666,8 +693,12 @@ impl OneGrid<'_> {
             None if numbers.of_row.is_empty() => z.fill(0.0),
             None => factor.apply(right, &numbers.of_row, &numbers.fine, z)?,
         }
-        for component in components {
-            component.apply(right, z);
+        match fields {
+            Some(fields) => {
+                components.iter().for_each(|of| of.copy(&fields[0], z));
+                work.of_fields = fields;
+            }
+            None => components.iter_mut().for_each(|of| of.apply(right, z)),
         }
         if has_block {
             block.after(r, z)?;

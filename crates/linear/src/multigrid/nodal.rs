@@ -122,6 +122,17 @@ impl Component {
     }
 }
 
+impl Component {
+    /// Takes its part of a vector over.
+    pub fn copy(&self, from: &[f64], to: &mut [f64]) {
+        for &e in &self.equation {
+            if let (Some(to), Some(from)) = (to.get_mut(e as usize), from.get(e as usize)) {
+                *to = *from;
+            }
+        }
+    }
+}
+
 /// Units of the equations, so that those of all fields are as large; none where there is no field besides the bodies.
 #[derive(Default)]
 pub(super) struct Units {
