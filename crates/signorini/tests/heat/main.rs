@@ -13,6 +13,7 @@ mod boxes;
 mod common;
 mod contact;
 mod decks;
+mod pairs;
 mod rods;
 mod tangent;
 mod time;
