@@ -80,6 +80,17 @@ impl Boxes {
         self
     }
 
+    /// Where a node is.
+    pub fn place(&self, node: usize) -> [f64; 3] {
+        self.nodes[node - 1]
+    }
+
+    /// Adds a set of nodes.
+    pub fn set(&mut self, name: &str, nodes: Vec<usize>) -> &mut Self {
+        self.sets.insert(name.to_owned(), nodes);
+        self
+    }
+
     /// The numbers of the nodes of a set.
     pub fn nodes(&self, set: &str) -> &[usize] {
         &self.sets[set]

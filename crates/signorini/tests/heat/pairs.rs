@@ -1,7 +1,8 @@
-//! Two bodies that conduct into one another: blocks that close as they warm.
+//! Two bodies that conduct into one another: blocks that close as they warm, a flux that varies along the contact.
 
 use super::*;
 use crate::common::reference;
+use std::f64::consts::PI;
 
 const METHODS: [&str; 3] = ["node-to-segment", "gauss-point", "mortar"];
 
@@ -76,6 +77,81 @@ fn blocks_that_close_as_they_warm_press_and_conduct_as_in_an_independent_program
             assert!(run.cutbacks.is_empty(), "{what}: {:?}", run.cutbacks);
             let found = run.increments[0].iterations;
             assert!(found <= 9, "{what}: {found} iterations");
+        }
+    }
+}
+
+/// A flux that varies as a cosine, with rectangles of height 1/4f on which 3f:2f facets do not match, and what it is at nodes
+/// of the secondary side or, where the points are within facets, at these: places and values.
+fn cosine(method: &str, f: usize) -> Vec<[f64; 2]> {
+    let [ns, nm, ny] = [3 * f, 2 * f, 4 * f];
+    let mut boxes = Boxes::new(2);
+    boxes.add("upper", [0.0; 3], [1.0; 3], [ns, ny, 1]);
+    boxes.add("lower", [0.0, -1.0, 0.0], [1.0, 0.0, 1.0], [nm, ny, 1]);
+    let mut given = String::new();
+    for node in boxes.nodes("upper_top").to_vec() {
+        let value = (PI * boxes.place(node)[0]).cos();
+        boxes.set(&format!("n{node}"), vec![node]);
+        given += &format!("{{ on = \"n{node}\", value = {value:?} }}, ");
+    }
+    let text = boxes.case(&format!(
+        "[material.a]\nconductivity = 1.0\n[material.b]\nconductivity = 2.0\n\
+         [[body]]\ngroup = \"upper\"\nmaterial = \"a\"\n[[body]]\ngroup = \"lower\"\nmaterial = \"b\"\n\
+         [[contact]]\nname = \"c\"\nsecondary = \"upper_bottom\"\nprimary = \"lower_top\"\nmethod = \"{method}\"\n\
+         enforcement = {{ penalty = 1.0 }}\nconductance = 20.0\n\
+         [[step]]\nname = \"heat\"\nkind = \"heat\"\nincrements = 1\n\
+         temperature = [{given}{{ on = \"lower_bottom\", value = 0.0 }}]\n\
+         [solver]\nnewton = {{ force_tol = 1e-12 }}\n"
+    ));
+    let (run, _) = solved(&text);
+    let frame = run.frames.last().unwrap();
+    let [upper, lower] = ["upper_bottom", "lower_top"].map(|side| at(frame, &boxes, side));
+    let all = at(frame, &boxes, "upper_all");
+    let along = |side: &[f64], x: f64| {
+        let place = x * (side.len() - 1) as f64;
+        let left = (place as usize).min(side.len() - 2);
+        let part = place - left as f64;
+        side[left] * (1.0 - part) + side[left + 1] * part
+    };
+    if method == "gauss-point" {
+        let points = (0..ns).flat_map(|i| [-1.0, 1.0].map(|s| (i, s)));
+        let places = points.map(|(i, s)| (i as f64 + 0.5 + 0.5 * s / 3.0_f64.sqrt()) / ns as f64);
+        return places
+            .map(|x| [x, 20.0 * (along(&upper, x) - along(&lower, x))])
+            .collect();
+    }
+    // what flows out of the first row of rectangles, over the part of the side that a node stands for
+    let [a, b] = [ns, ny].map(|n| (n as f64).recip());
+    let mut flow = vec![0.0; ns + 1];
+    for i in 0..ns {
+        let [p, q, r, s] = [i, i + 1, i + ns + 2, i + ns + 1].map(|k| all[k]);
+        let [x, y] = [b / a / 6.0, a / b / 6.0];
+        flow[i] += x * (2.0 * (p - q) + s - r) + y * (2.0 * (p - s) + q - r);
+        flow[i + 1] += x * (2.0 * (q - p) + r - s) + y * (2.0 * (q - r) + p - s);
+    }
+    let share = |i: usize| if i == 0 || i == ns { 0.5 * a } else { a };
+    let of = |(i, flow): (usize, f64)| [i as f64 * a, -flow / share(i)];
+    flow.into_iter().enumerate().map(of).collect()
+}
+
+/// `cosine_flux.json`: errors over the largest flux, of which two digits are given.
+#[test]
+fn a_flux_that_varies_along_the_contact_is_as_far_off_as_in_an_independent_program() {
+    let Some(exact) = reference("thermal/cosine_flux.json") else {
+        return;
+    };
+    let most = exact["q0"].as_f64().unwrap();
+    for (method, expected) in [
+        ("mortar", ["3.3e-1", "9.9e-2", "2.8e-2", "8.0e-3"]),
+        ("gauss-point", ["2.8e-1", "9.2e-2", "2.9e-2", "1.0e-2"]),
+        ("node-to-segment", ["3.3e-1", "1.3e-1", "6.6e-2", "3.6e-2"]),
+    ] {
+        let count = if cfg!(debug_assertions) { 3 } else { 4 };
+        for (f, expected) in [1, 2, 4, 8].into_iter().zip(expected).take(count) {
+            let all = cosine(method, f).into_iter();
+            let off = all.map(|[x, q]| (q / most - (PI * x).cos()).abs());
+            let off = off.fold(0.0, f64::max);
+            assert_eq!(format!("{off:.1e}"), expected, "{method} {f}: {off}");
         }
     }
 }
