@@ -80,6 +80,14 @@ impl Boxes {
         self
     }
 
+    /// Moves the nodes of a box.
+    pub fn bend(&mut self, name: &str, to: impl Fn([f64; 3]) -> [f64; 3]) -> &mut Self {
+        for node in &self.sets[&format!("{name}_all")] {
+            self.nodes[node - 1] = to(self.nodes[node - 1]);
+        }
+        self
+    }
+
     /// Where a node is.
     pub fn place(&self, node: usize) -> [f64; 3] {
         self.nodes[node - 1]

@@ -1,4 +1,4 @@
-//! Two bodies that conduct into one another: blocks that close as they warm, a flux that varies along the contact.
+//! Two bodies that conduct into one another: blocks that close as they warm, a flux that varies along the contact, nodes on a face.
 
 use super::*;
 use crate::common::reference;
@@ -152,6 +152,60 @@ fn a_flux_that_varies_along_the_contact_is_as_far_off_as_in_an_independent_progr
             let off = all.map(|[x, q]| (q / most - (PI * x).cos()).abs());
             let off = off.fold(0.0, f64::max);
             assert_eq!(format!("{off:.1e}"), expected, "{method} {f}: {off}");
+        }
+    }
+}
+
+/// `contact7_ccx.json`: nodes of a small cube on a face, with the area of all faces around them, in the increments of CalculiX.
+#[test]
+fn nodes_on_a_face_conduct_as_in_calculix() {
+    let Some(all) = reference("thermal/contact7_ccx.json") else {
+        return;
+    };
+    let mut boxes = Boxes::new(3);
+    boxes.add("lower", [0.0; 3], [1.0; 3], [1; 3]);
+    boxes.add("upper", [-1.0, 1.0, -1.0], [1.0, 1.2, 1.0], [1; 3]);
+    // turned by 45 degrees, with sides of 0.2
+    boxes.bend("upper", |[x, y, z]| {
+        let half = 0.1 / 2.0_f64.sqrt();
+        [0.5 + half * (x - z), y, 0.5 + half * (x + z)]
+    });
+    let mut steps = String::new();
+    let increments = common::numbers(&all["dt"]);
+    for (k, dt) in increments.iter().enumerate() {
+        steps += &format!(
+            "[[step]]\nname = \"{k}\"\nkind = \"heat\"\nthermal = \"transient\"\nduration = {dt:?}\nincrements = {{ fixed = 1 }}\n"
+        );
+        if k == 0 {
+            steps += "temperature = [{ on = \"lower_bottom\", value = 0.0 }, { on = \"upper_top\", value = 1000.0 }]\n";
+        }
+    }
+    let text = boxes.case(&format!(
+        "[initial]\ntemperature = 0.0\nat = [{{ on = \"upper_top\", temperature = 1000.0 }}]\n\
+         [material.m]\nconductivity = 0.01\nspecific_heat = 1e3\ndensity = 7.8e-9\n\
+         [[body]]\ngroup = [\"lower\", \"upper\"]\nmaterial = \"m\"\n\
+         [[contact]]\nname = \"c\"\nsecondary = \"upper_bottom\"\nprimary = \"lower_top\"\nmethod = \"node-to-segment\"\n\
+         area = \"adjacent\"\nenforcement = {{ penalty = 1e7, per = \"area\" }}\nconductance = 1.0\n{steps}\
+         [solver]\nnewton = {{ force_tol = 1e-12 }}\n"
+    ));
+    let (run, _) = solved(&text);
+    for (key, by_hand, frame) in [
+        ("ccx_first", [51.453_03, 66.888_94], &run.frames[0]),
+        ("ccx_last", [164.381_53, 178.080_20], &run.frames[9]),
+    ] {
+        let expected = common::numbers(&all[key]);
+        for ((side, expected), by_hand) in ["lower_top", "upper_bottom"]
+            .iter()
+            .zip(expected)
+            .zip(by_hand)
+        {
+            for t in at(frame, &boxes, side) {
+                assert!((t - by_hand).abs() < 1e-5, "{key} {side}: {t} {by_hand}");
+                assert!(
+                    (t / expected - 1.0).abs() < 1e-5,
+                    "{key} {side}: {t} {expected}"
+                );
+            }
         }
     }
 }
