@@ -15,6 +15,7 @@ mod contact;
 mod decks;
 mod pairs;
 mod rods;
+mod rubbing;
 mod tangent;
 mod time;
 

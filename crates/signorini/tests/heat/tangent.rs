@@ -192,3 +192,31 @@ fn coupled_tangents_match_differences_for_every_method_law_and_friction() {
         }
     }
 }
+
+#[test]
+fn tangents_on_a_rigid_surface_match_differences_with_a_temperature_and_without() {
+    for ndim in [2, 3] {
+        for method in ["node-to-segment", "gauss-point"] {
+            for temperature in ["", "temperature = 50.0"] {
+                let mut boxes = Boxes::new(ndim);
+                boxes.add("block", [0.3, 1.0, 0.1], [1.3, 2.0, 0.8], [1, 1, 1]);
+                let text = boxes.case(&format!(
+                    "[material.m]\nmodel = \"neo-hookean\"\nE = 1e3\nnu = 0.3\nexpansion = {{ alpha = 1e-3 }}\nconductivity = 3.0\nspecific_heat = 2.0\ndensity = 0.5\n\
+                     [[body]]\ngroup = \"block\"\nmaterial = \"m\"\n\
+                     [[surface]]\nname = \"floor\"\nshape = {{ plane = {{ point = {}, normal = \"y\" }} }}\n\
+                     [[contact]]\nname = \"touch\"\nsecondary = \"block_bottom\"\nprimary = \"floor\"\nmethod = \"{method}\"\n\
+                     enforcement = {{ penalty = 2e3 }}\nfriction = 0.3\n{temperature}\n\
+                     conductance = {{ constant = 2.0, over_pressure = [[0.0, 1.0], [1e4, 500.0]] }}\n\
+                     [[step]]\nname = \"rub\"\nkind = \"coupled\"\nthermal = \"transient\"\ngeometry = \"nonlinear\"\nincrements = 1\n\
+                     move = [{{ on = \"block_top\", ux = 0.1, uy = -0.05{} }}]\n",
+                    if ndim == 3 { "[0, 1.02, 0]" } else { "[0, 1.02]" },
+                    if ndim == 3 { ", uz = 0.0" } else { "" }
+                ));
+                let what = format!("{ndim} {method} {temperature}");
+                let [_, [heat, own]] = errors(&text);
+                assert!(own < 1e-7, "{what}: {own:e}");
+                assert!(heat < 2e-6, "{what}: {heat:e}");
+            }
+        }
+    }
+}

@@ -21,6 +21,8 @@ pub(super) struct OfParticipant {
 #[derive(Default)]
 pub(super) struct ThermalScratch {
     pub participants: Vec<OfParticipant>,
+    /// Whether the other side neither gives nor takes heat: all that friction sets free is the secondary side's.
+    pub insulated: bool,
     /// c.
     pub coverage: f64,
     /// dc over the columns of displacements.
@@ -38,6 +40,12 @@ pub(super) struct ThermalScratch {
 }
 
 impl ThermalScratch {
+    /// The temperature of a surface without nodes; any where it has none, for it insulates.
+    pub fn of_surface(&mut self, given: Option<f64>) -> f64 {
+        self.insulated = given.is_none();
+        given.unwrap_or_default()
+    }
+
     /// [θ] and θ_m.
     pub fn jump_and_mean(&self) -> [f64; 2] {
         let all = self.participants.iter();

@@ -101,7 +101,7 @@ impl Interface {
             jump,
         };
         let mut conducted = Conducted::default();
-        for path in &heat.paths {
+        for path in heat.paths.iter().filter(|_| !s.insulated) {
             conducted += path.at(&at, &self.parts.scale);
         }
         if pressure <= 0.0 {
@@ -115,10 +115,13 @@ impl Interface {
         if conducted == Conducted::default() && power == 0.0 {
             return Ok(());
         }
-        let friction = heat.friction.unwrap_or(FrictionHeat {
+        let mut friction = heat.friction.unwrap_or(FrictionHeat {
             fraction: 0.0,
             to_secondary: 0.5,
         });
+        if s.insulated {
+            friction.to_secondary = 1.0;
+        }
         s.add_residual(&conducted, jump, (weight, power), friction);
         s.stiffness.clear();
         s.coupling.clear();
@@ -147,7 +150,7 @@ impl Interface {
         Ok(())
     }
 
-    /// Takes β and θ of the participants; false where the other side has no temperature.
+    /// Takes β and θ of the participants; false where nothing is opposite.
     fn take_temperatures(
         &self,
         heat: &ContactHeat,
@@ -160,6 +163,7 @@ impl Interface {
         s.dofs.clear();
         s.dbeta.clear();
         s.coverage = row.coverage;
+        s.insulated = false;
         let n = row.weights.len();
         let secondary = rows.secondary();
         let mut first = 0;
@@ -171,7 +175,7 @@ impl Interface {
                     let dof = self.layout.temperature(node);
                     (dof, trial.u.get(dof as usize).copied())
                 }
-                Participant::Rigid(_) => (NO_DOF, heat.primary),
+                Participant::Rigid(_) => (NO_DOF, Some(s.of_surface(heat.primary))),
             };
             let Some(temperature) = value else {
                 return false;
@@ -204,9 +208,7 @@ impl Interface {
         if sum <= 0.5 * row.coverage {
             return true;
         }
-        let Some(temperature) = heat.primary else {
-            return false;
-        };
+        let temperature = s.of_surface(heat.primary);
         s.dofs.push(NO_DOF);
         s.participants.push(OfParticipant {
             temperature,
