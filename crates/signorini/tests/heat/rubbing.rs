@@ -1,7 +1,85 @@
-//! The heat of friction on rings, and on surfaces that take none.
+//! The heat of friction against closed forms: half-spaces, rings, and surfaces that take none.
 
 use super::*;
 use crate::common::reference;
+
+const WAYS: [(&str, &str); 5] = [
+    ("node-to-segment", "penalty = 1e7, per = \"area\""),
+    ("node-to-segment", "lagrange = {}"),
+    ("gauss-point", "penalty = 1e7"),
+    ("mortar", "penalty = 1e7"),
+    ("mortar", "lagrange = {}"),
+];
+
+/// Two columns of so many cells and this depth, one on the other, pressed by 10 and rubbed with a velocity of 2 for a time of 1.
+fn rubbed(way: (&str, &str), k: [f64; 2], depth: f64, [n, increments]: [usize; 2]) -> [f64; 3] {
+    let (method, enforcement) = way;
+    let mut boxes = Boxes::new(2);
+    boxes.add("upper", [0.0; 3], [1.0; 3], [1, n, 1]);
+    boxes.add("lower", [0.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1, n, 1]);
+    // finer towards the contact
+    for name in ["upper", "lower"] {
+        boxes.bend(name, |[x, y, z]| [x, depth * y * y.abs(), z]);
+    }
+    // guided, but for the nodes that friction acts on
+    for (name, side) in [("upper", "bottom"), ("lower", "top")] {
+        let side = boxes.nodes(&format!("{name}_{side}")).to_vec();
+        let all = boxes.nodes(&format!("{name}_all")).iter();
+        let guided = all.copied().filter(|node| !side.contains(node)).collect();
+        boxes.set(&format!("{name}_guided"), guided);
+    }
+    let law = |k: f64| {
+        format!(
+            "model = \"linear-elastic\"\nE = 1e6\nnu = 0.0\nconductivity = {k:?}\nspecific_heat = 2.0\ndensity = 0.5"
+        )
+    };
+    let text = boxes.case(&format!(
+        "[material.a]\n{}\n[material.b]\n{}\n[[body]]\ngroup = \"upper\"\nmaterial = \"a\"\n\
+         [[body]]\ngroup = \"lower\"\nmaterial = \"b\"\n\
+         [[contact]]\nname = \"c\"\nsecondary = \"upper_bottom\"\nprimary = \"lower_top\"\nmethod = \"{method}\"\n\
+         enforcement = {{ {enforcement} }}\nfriction = 0.2\nconductance = 1e6\n\
+         [[step]]\nname = \"press\"\ngeometry = \"linear\"\nincrements = 1\n\
+         fix = [{{ on = \"lower_guided\", u = \"all\" }}, {{ on = \"upper_guided\", u = [\"x\"] }}]\n\
+         load = [{{ on = \"upper_top\", pressure = 10.0 }}]\n\
+         [[step]]\nname = \"rub\"\nkind = \"coupled\"\nthermal = \"transient\"\nduration = 1.0\nincrements = {{ fixed = {increments} }}\n\
+         move = [{{ on = \"upper_guided\", ux = {{ table = [[0.0, 0.0], [1.0, 2.0]] }} }}]\n\
+         [solver]\nnewton = {{ force_tol = 1e-10 }}\n",
+        law(k[0]),
+        law(k[1])
+    ));
+    let (run, _) = solved(&text);
+    let frame = run.frames.last().unwrap();
+    // in the mean, for friction tilts the pressure a little
+    let [upper, lower] = ["upper_bottom", "lower_top"].map(|side| {
+        let rises = at(frame, &boxes, side);
+        rises.iter().sum::<f64>() / rises.len() as f64
+    });
+    [upper, lower, frame.heat_stored]
+}
+
+/// `friction_heat_half_spaces.json`: rises to 0.1 % as the increments of backward Euler shrink, and all the heat in closed blocks.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes its time without optimization")]
+fn half_spaces_that_rub_warm_as_the_closed_form_says() {
+    let Some(exact) = reference("thermal/friction_heat_half_spaces.json") else {
+        return;
+    };
+    let equal = exact["rise"].as_f64().unwrap();
+    let unequal = exact["unequal"]["rise"].as_f64().unwrap();
+    for way in WAYS {
+        for (k, rise) in [([10.0, 10.0], equal), ([10.0, 6.0], unequal)] {
+            let [coarse, fine] = [10, 20].map(|n| rubbed(way, k, 16.0, [32, n]));
+            for side in 0..2 {
+                let off = [coarse, fine].map(|rises| rises[side] / rise - 1.0);
+                let limit = 2.0 * off[1] - off[0];
+                assert!(limit.abs() < 1e-3, "{way:?} {k:?}: {off:?} {limit:e}");
+            }
+        }
+        // all that the sides have yielded and not given back is at most the limit of friction over the penalty
+        let [.., stored] = rubbed(way, [10.0; 2], 1.0, [2, 5]);
+        assert!((stored - 4.0).abs() < 1e-4, "{way:?}: {stored}");
+    }
+}
 
 /// `ring3_ccx.json`: two rings of quad8 pressed together by their overlap, rubbed along the axis; 30 % to the outer ring.
 #[test]
