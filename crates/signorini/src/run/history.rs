@@ -10,7 +10,10 @@ use signorini_io::writers::csv::{
     COHESION_COLUMNS, CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS,
     history_columns, reference_columns,
 };
-use signorini_mechanics::system::{ContactFrame, Energies, Frame, Resultant, RigidFrame, Wear};
+use signorini_mechanics::solve::Step;
+use signorini_mechanics::system::{
+    ContactFrame, Energies, Frame, Heat, Resultant, RigidFrame, Wear,
+};
 
 /// The columns of a run and where their values come from.
 #[derive(Debug)]
@@ -32,6 +35,8 @@ enum Chosen {
     Probe(Probe),
     /// Cycles that are behind.
     Cycles,
+    /// Heat that bodies took up since the start.
+    HeatStored,
     /// What is worn off a contact.
     Worn(String, OfWear),
 }
@@ -66,6 +71,11 @@ impl History {
         if !model.cycles.is_empty() {
             names.push("cycles".to_owned());
             chosen.push(Chosen::Cycles);
+        }
+        let stores = |step: &Step| step.physics.heat == Heat::Transient;
+        if model.steps.iter().any(stores) {
+            names.push("heat_stored".to_owned());
+            chosen.push(Chosen::HeatStored);
         }
         let wearing = model.case.contacts.iter().filter(|c| c.wear.is_some());
         for contact in wearing {
@@ -144,6 +154,7 @@ impl History {
                 Chosen::Copy(column) => values.get(*column).copied().unwrap_or(f64::NAN),
                 Chosen::Probe(probe) => probe.value(frame),
                 Chosen::Cycles => frame.cycles,
+                Chosen::HeatStored => frame.heat_stored,
                 Chosen::Worn(name, of) => {
                     let contact = frame.contacts.iter().find(|c| c.name == *name);
                     contact.and_then(|c| c.wear.as_ref()).map_or(0.0, of)

@@ -48,8 +48,14 @@ fn contact_status(frame: &Frame, node: usize) -> Option<f64> {
     })
 }
 
-/// Every quantity with its name; those of forces are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 48] = [
+/// Heat per time that a support of the temperature brings in at a node; none while temperatures are given.
+fn reaction_heat(frame: &Frame, node: usize) -> Option<f64> {
+    let field = frame.fields.iter().find(|one| one.name == "temperature");
+    field.map_or(Some(0.0), |one| one.reaction.get(node).copied())
+}
+
+/// Every quantity with its name; forces and heat that supports bring in are summed over a set, the others averaged.
+const QUANTITIES: [(&str, Read); 52] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
@@ -122,6 +128,10 @@ const QUANTITIES: [(&str, Read); 48] = [
         f.plastic_strain.get(n).copied().or(none)
     }),
     ("temperature", |f, n| f.temperature.get(n).copied()),
+    ("reaction_heat", reaction_heat),
+    ("heat_flux.x", |f, n| vector(&f.heat_flux, n, 0)),
+    ("heat_flux.y", |f, n| vector(&f.heat_flux, n, 1)),
+    ("heat_flux.z", |f, n| vector(&f.heat_flux, n, 2)),
 ];
 
 /// A number at an integration point.
@@ -231,7 +241,7 @@ impl Probe {
         }))
     }
 
-    /// A quantity on a set: the sum of forces, the mean of others.
+    /// A quantity on a set: the sum of forces and of heat from supports, the mean of others.
     ///
     /// # Errors
     /// No such quantity or set.
@@ -349,8 +359,8 @@ fn find(quantity: &str) -> Result<(Read, Statistic), ProbeError> {
     let (name, read) = found.ok_or_else(|| ProbeError::Quantity {
         name: quantity.into(),
     })?;
-    let is_force = name.contains("_force.");
-    let statistic = if is_force {
+    let adds = name.contains("_force.") || *name == "reaction_heat";
+    let statistic = if adds {
         Statistic::Sum
     } else {
         Statistic::Mean

@@ -1,6 +1,10 @@
 //! Heat that bodies store, and what flows through their surfaces.
 
 use super::*;
+use signorini::{News, Reading, RunOptions, build, open_text};
+use signorini_io::fs::{Fs, MemoryFs};
+use signorini_mechanics::solve::Flow;
+use std::sync::Arc;
 
 /// A slab of length 1, κ = k = 1, at 0; its left end is at 1 from the start on, its right end insulated.
 fn slab(ndim: usize, increments: usize, capacity: &str) -> (Boxes, String) {
@@ -53,6 +57,57 @@ fn what_is_stored_came_in_at_the_support() {
         assert!((frame.heat_stored - came).abs() < 1e-12 * came.abs().max(1e-3));
     }
     assert!(came > 0.03);
+}
+
+#[test]
+fn histories_have_what_is_stored_and_what_supports_bring_in() {
+    let (_, text) = slab(2, 5, "consistent");
+    let columns =
+        "{ name = \"end\", set = \"slab_left\", quantity = [\"reaction_heat\", \"heat_flux.x\"] }";
+    let expected = "[[expect]]\nwhat = \"heat_stored\"\nvalue = 0.0357\ntol = { rel = 0.03 }\n";
+    let text = format!("{text}[output]\nhistory = [{columns}]\n{expected}");
+    let fs: Arc<dyn Fs> = Arc::new(MemoryFs::default());
+    let opened = open_text("case.toml".as_ref(), text.into(), &Reading::default()).unwrap();
+    let loaded = opened.with_mesh().unwrap();
+    let mut options = RunOptions::new(loaded.source);
+    options.fs = Arc::clone(&fs);
+    let mut model = build(loaded.case, loaded.mesh).unwrap();
+    let done = signorini::run(&mut model, &options, &mut |_: &News<'_>| Flow::Continue);
+    let said = done.diagnostics.plain();
+    let table = String::from_utf8(fs.read(&options.folder.join("history.csv")).unwrap()).unwrap();
+    assert_eq!(done.exit_code, 0, "{said}\n{table}");
+    let mut lines = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let at = ["heat_stored", "end.reaction_heat", "end.heat_flux.x"]
+        .map(|name| names.iter().position(|other| *other == name).unwrap());
+    let mut came = 0.0;
+    for line in lines {
+        let [stored, heat, flux] = at.map(|at| line[at].parse::<f64>().unwrap());
+        came += heat * 0.02;
+        assert!((stored - came).abs() < 1e-9 * came, "{stored} {came}");
+        assert!(flux > 0.0);
+    }
+}
+
+#[test]
+fn what_is_stored_goes_with_temperatures_in_steps_of_all_kinds() {
+    let mut boxes = Boxes::new(2);
+    boxes.add("bar", [0.0; 3], [2.0, 1.0, 1.0], [4, 1, 1]);
+    let rest = "[material.m]\nmodel = \"linear-elastic\"\nE = 1.0\nnu = 0.0\nexpansion = { alpha = 1e-3 }\nconductivity = 1.0\n\
+         specific_heat = 3.0\ndensity = 0.5\n[[body]]\ngroup = \"bar\"\nmaterial = \"m\"\n\
+         [[step]]\nname = \"given\"\ngeometry = \"linear\"\nincrements = 2\nfix = [{ on = \"bar_left\", u = \"all\" }]\n\
+         temperature = [{ on = \"all\", value = 5.0 }]\n\
+         [[step]]\nname = \"steady\"\nkind = \"coupled\"\nincrements = 2\nfree = [{ on = \"bar\", temperature = true }]\n\
+         temperature = [{ on = \"bar_left\", value = 20.0 }, { on = \"bar_right\", value = 40.0 }]\n\
+         [[step]]\nname = \"cool\"\nkind = \"heat\"\nthermal = \"transient\"\nincrements = 1\ntemperature = [{ on = \"all\", value = 0.0 }]\n";
+    let (run, _) = solved(&boxes.case(rest));
+    // a heat of 3 per temperature
+    for (frame, mean) in [(1, 5.0), (3, 30.0), (4, 0.0)] {
+        let off = run.frames[frame].heat_stored - 3.0 * mean;
+        assert!(off.abs() < 1e-9, "{frame}: {off:e}");
+    }
 }
 
 #[test]

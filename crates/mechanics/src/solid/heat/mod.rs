@@ -441,7 +441,7 @@ impl HeatInBody {
     /// The heat that the body took up in the increment that ends at a state.
     fn taken_up(&self, state: &State) -> Result<f64, TermError> {
         let (mut total, mut scratch) = (0.0, Scratch::default());
-        for chunk in 0..self.nchunk() {
+        for chunk in 0..self.chunks.len() {
             self.each(chunk, state, &mut scratch, |block, cell, s| {
                 s.heat.clear(Order::Residual, false);
                 self.store(block, cell, Order::Residual, s)?;
@@ -618,7 +618,8 @@ impl Conducting for HeatInBody {
 
 impl Stored for HeatInBody {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        if self.is_transient() {
+        // what is stored is a matter of temperatures, however they come about
+        if self.conductor.stores() && self.step.scheme.is_none() && self.dt > 0.0 {
             self.stored += self.taken_up(state)?;
         }
         Ok(())
