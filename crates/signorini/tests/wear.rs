@@ -14,7 +14,7 @@ use common::{Run, model, run};
 use signorini::{News, Reading, RunOptions, build, open_text};
 use signorini_io::fs::{Fs, MemoryFs};
 use signorini_mechanics::solve::Flow;
-use signorini_mechanics::system::{Frame, Wear};
+use signorini_mechanics::system::{Check, Frame, Wear};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -335,6 +335,20 @@ fn a_rigid_pin_loses_a_cap() {
     let done = solved(&text, "pin");
     let last = done.frames.last().unwrap();
     let worn = wear(last);
+    // what is worn off is no penetration: twice the size of a facet would be one
+    assert!(worn.deepest > 1.9 * width / n as f64, "{}", worn.deepest);
+    for frame in &done.frames {
+        let failures = frame.audits.iter().flat_map(|audit| audit.failures());
+        let failures: Vec<_> = failures
+            .filter(|(check, _)| *check == Check::Through)
+            .collect();
+        assert!(failures.is_empty(), "{} {failures:?}", frame.time);
+        let contact = &frame.contacts[0];
+        let yields = contact.pressure_max / 1e6;
+        let [deep, most] = [-contact.gap_min, yields * (1.0 + 1e-9)];
+        assert!(deep <= most, "{deep} {most}");
+    }
+    assert!(!last.audits.is_empty());
     assert!(
         (worn.volume[0] / of("V") - 1.0).abs() < 1e-6,
         "{}",

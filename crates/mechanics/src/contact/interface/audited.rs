@@ -1,7 +1,7 @@
 //! What an audit is to know of a contact.
 
 use super::means::mean;
-use super::{Interface, Measure, Multiplier, State};
+use super::{Interface, Measure, Multiplier, Rows, State};
 use crate::audit::{self, Rules, Sides};
 use crate::contact::friction::Sliding;
 use crate::system::{ContactAudit, ContactFrame, Frame, NodeId};
@@ -51,7 +51,7 @@ impl Interface {
             of: self,
             at: state.placement(),
             frame: of,
-            shifts: self.shifts_at_nodes(state.time),
+            shifts: self.shifts_at_nodes(state),
             ways: self.ways_at_nodes(state),
             partners: self.partners(),
         };
@@ -117,15 +117,17 @@ impl Interface {
         ways
     }
 
-    /// The shift of the gaps around each node of the secondary side: the mean over its rows.
-    fn shifts_at_nodes(&self, time: f64) -> Vec<f64> {
-        if self.parts.shifts.is_empty() && self.allowed.overlaps.is_empty() {
+    /// The shift of the gaps around each node of the secondary side, with what is worn off: the mean over its rows.
+    fn shifts_at_nodes(&self, state: &State) -> Vec<f64> {
+        let parts = &self.parts;
+        if parts.shifts.is_empty() && self.allowed.overlaps.is_empty() && parts.wear.is_none() {
             return Vec::new();
         }
+        let mut rows = Rows::default();
         let points = &self.parts.pair.points;
         let mut sums = vec![(0.0, 0.0); points.len()];
         for row in 0..self.parts.discretization.nrow() {
-            let shift = self.shift(row, time);
+            let shift = self.shift(row, state.time) + self.wears_off(row, state, &mut rows);
             let point = self.parts.discretization.point(row);
             for (node, weight) in point.nodes.iter().zip(point.weights) {
                 let place = points.binary_search(node).ok();

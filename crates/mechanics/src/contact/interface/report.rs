@@ -349,13 +349,16 @@ impl Interface {
             };
             let mut on_row = OnRow::default();
             if let Some(filled) = scratch.rows.rows().first() {
-                gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
+                let mut gap = filled.gap;
                 reported.status = Status::Open;
                 let (mut elastic_slip, mut direction) = (Vec3::ZERO, Vec3::ZERO);
                 let damage = self.damage(filled).unwrap_or_default();
                 if acts {
                     let lambda = self.lambda(row, state);
                     let traction = self.traction(filled, &lambda);
+                    if filled.worn.is_some() {
+                        gap = (self.laws_of(row)).seen_by_law(filled.seen(), traction.pressure);
+                    }
                     reported.energy = self.measure(row) * self.stored(filled, &lambda, &traction);
                     elastic_slip = match self.parts.bond {
                         Some(_) => filled.within(filled.sliding.slip),
@@ -379,9 +382,10 @@ impl Interface {
                         Contact::Slip => Status::Slip,
                     };
                 }
+                gap_min = Some(gap_min.map_or(gap, |least| least.min(gap)));
                 reported.found = Some(Found {
                     normal: filled.normal,
-                    gap: filled.gap,
+                    gap,
                     direction,
                     elastic_slip,
                     damage,

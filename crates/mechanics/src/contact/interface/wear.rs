@@ -191,6 +191,18 @@ impl Interface {
         Ok(())
     }
 
+    /// How much of both sides the present increment takes off at a row.
+    pub(super) fn wears_off(&self, number: usize, state: &State, rows: &mut Rows) -> f64 {
+        let acts = self.parts.wear.is_some()
+            && (self.acting_row(number, state, RowOrder::Gradient, rows)).unwrap_or(false);
+        let row = rows.rows().first().filter(|_| acts);
+        row.map_or(0.0, |row| {
+            let pressure = self.traction(row, &self.lambda(number, state)).pressure;
+            let laws = self.laws_of(number);
+            laws.seen_by_law(row.seen(), pressure) - row.gap
+        })
+    }
+
     /// Writes what is worn into the report of an accepted state.
     pub(super) fn report_wear(&self, report: &mut ContactFrame, frame: &mut Frame) {
         let Some(wear) = &self.parts.wear else { return };
