@@ -235,7 +235,8 @@ def check_volume(checks, what, grid, contact):
     checks.that(labels in (TENSOR, [None] * 6), f"{what}: stress is labelled {labels}, expected {TENSOR}")
     stress = tuples(arrays["stress"])
     mises = array_values(arrays["von_mises"])
-    scale = largest(mises)
+    # where a stress is one pressure alone, it leaves nothing but rounding
+    scale = largest(x for s in stress for x in s)
     checks.near(f"{what}: von_mises of the stress", mises, [von_mises(s) for s in stress], scale)
     if contact:
         pressure = array_values(arrays["contact_pressure"])
@@ -293,7 +294,8 @@ def check_contact(checks, what, grid, kinds):
     checks.that(all(s in (-1, 0, 1, 2, 3) for s in status), f"{what}: unknown status among {sorted(set(status))}")
     pairs = list(zip(status, gap))
     checks.that(all(g == g for s, g in pairs if s != ABSENT), f"{what}: a candidate has no gap")
-    checks.that(all(p >= 0.0 for p in pressure), f"{what}: a contact pressure pulls")
+    pulls = any(p < 0.0 for p in pressure) and not kinds["pulling"]
+    checks.that(not pulls, f"{what}: a contact pressure pulls")
     slack = 1e-9 * largest(peak)
     below = all(p <= q + slack for p, q in zip(pressure, peak))
     checks.that(below, f"{what}: a mean pressure at a node is above the largest pressure around it")
@@ -342,6 +344,7 @@ def kinds_of_contact(case):
         "found": found,
         "in facets": named(lambda c: c["method"] == "gauss-point"),
         "two passes": named(lambda c: c.get("passes") == 2),
+        "pulling": named(lambda c: c.get("tied") or "adhesion" in c),
         "mortar": named(lambda c: c["method"] == "mortar" or ("all" in c and c["method"] == "auto")),
     }
 
