@@ -36,6 +36,8 @@ const ACROSS: [usize; 3] = [2, 4, 5];
 const LATERAL: [usize; 5] = [1, 2, 3, 4, 5];
 /// The most free strains.
 const MOST: usize = 5;
+/// Columns that are solved for at most: those of six strains and of the temperature.
+const COLUMNS: usize = 7;
 
 /// Volume ratio, squared, from which on the last free strains are no start.
 const FAR: f64 = 2.0;
@@ -187,7 +189,7 @@ impl Reduced {
     ) -> Result<(), MaterialError> {
         let (n, m) = (self.free.len(), columns.len());
         let mut a = [0.0; MOST * MOST];
-        let mut right = [0.0; MOST * 6];
+        let mut right = [0.0; MOST * COLUMNS];
         for (i, &p) in self.free.iter().enumerate() {
             for (j, &q) in self.free.iter().enumerate() {
                 a[i * n + j] = tangent[p][q];
@@ -314,7 +316,7 @@ impl Reduced {
         let n = self.free.len();
         let full = out.tangent;
         // C_ff⁻¹ C_f·
-        let mut columns = [[0.0; MOST]; 7];
+        let mut columns = [[0.0; MOST]; COLUMNS];
         let mut thermal = out.thermal.to_pairs();
         for (q, column) in columns.iter_mut().enumerate() {
             for (c, &p) in column.iter_mut().zip(self.free) {
