@@ -115,6 +115,26 @@ impl Worst {
     }
 }
 
+/// Small enough to stay clear of the kinks of tables and caps, which no verdict reports.
+const STEP: f64 = 5e-6;
+
+/// Whether the stiffness jumps where [`tangent_error`] takes differences of forces: at the largest closure so far of a gasket, say.
+fn has_kink(scene: &mut Scene, seed: u64) -> bool {
+    let mut random = Random::new(seed);
+    let n = scene.layout.ndof();
+    let first = n - scene.layout.nmultiplier();
+    let mut v = vec![0.0; n];
+    v[..first].fill_with(|| random.signed());
+    let [before, after] = [-2.0, 2.0].map(|step| {
+        let there = scene.moved(&v, step * STEP);
+        scene.respond(&there, Order::Tangent)
+    });
+    let jump: Vec<f64> = (before.along(&v).iter().zip(&after.along(&v)))
+        .map(|(a, b)| a - b)
+        .collect();
+    largest(&jump) > 1e-3 * largest(&before.stiffness)
+}
+
 pub(super) fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
     let mut random = Random::new(seed);
     let base = scene.state.clone();
@@ -131,8 +151,7 @@ pub(super) fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
         }
         let mut v = vec![0.0; n];
         v[part.clone()].fill_with(|| random.signed());
-        // small enough to stay clear of the kinks of tables and caps, which no verdict reports
-        let h = 5e-6;
+        let h = STEP;
         let mut change = vec![0.0; n];
         let mut same = true;
         for (step, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
@@ -213,6 +232,7 @@ fn check(
 ) -> Worst {
     let (mut worst, mut seen) = (Worst::default(), Seen::default());
     let mut name = String::new();
+    let mut kinks = 0;
     for seed in 1..=12 {
         let choice = Choice {
             friction: friction.clone(),
@@ -231,6 +251,11 @@ fn check(
         );
         let mut scene = Scene::with_past(kind, method, choice, seed);
         let found = tangent_error(&mut scene, seed);
+        if law == GASKET && found.displacement > 1e-7 && has_kink(&mut scene, seed) {
+            kinks += 1;
+            assert!(kinks < 4, "{name}: kinks at {kinks} seeds");
+            continue;
+        }
         assert!(
             found.displacement < 1e-7 && found.multiplier < 1e-7,
             "{name}: {:e} {:e}",
