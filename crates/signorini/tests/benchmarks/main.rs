@@ -9,6 +9,7 @@
 mod common;
 mod scene;
 
+mod adhesion;
 mod assemblies;
 mod bars;
 mod beam;
