@@ -1,5 +1,6 @@
 //! What a run stores of itself, to go on from there.
 
+use super::heat;
 use super::local_error::Record;
 use super::newton::ForceScale;
 use super::step::Turns;
@@ -45,6 +46,7 @@ impl Stepper {
         let experience = self.newton.equations.experience();
         out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
+        heat::save(p.heat.as_ref(), out);
         if p.turns.stands_for > 0.0 {
             out.put("progress.cycles", &[p.turns.done, p.turns.stands_for]);
             out.put("progress.worn", &p.turns.last);
@@ -119,6 +121,7 @@ impl Stepper {
             curvature: curvature.first().copied(),
             jumped: jumped != 0.0,
             work,
+            heat: heat::load(from)?,
             turns,
             record: Record {
                 largest: record[0],

@@ -40,6 +40,7 @@ mod economy;
 mod equations;
 mod event;
 mod forecast;
+mod heat;
 mod leap;
 mod line_search;
 mod local_error;

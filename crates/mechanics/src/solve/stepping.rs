@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
+use super::heat;
 use super::local_error::{Record, look, next};
 use super::newton::{Failure, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
@@ -9,7 +10,8 @@ use super::step::{Cycle, Increments, Motion, Sizes, Step, Turns};
 use super::work::ExternalWork;
 use crate::explicit::{Explicit, Kept};
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, Heat, Order, State, System, TermError, interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, Heat, HeatBalance, Order, State, System, TermError,
+    interpolate,
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
@@ -145,6 +147,8 @@ pub(super) struct Progress {
     pub jumped: bool,
     /// What supports and loads have done.
     pub work: ExternalWork,
+    /// Where heat came from and went to; none where no step has found temperatures.
+    pub heat: Option<HeatBalance>,
     /// What the control of time knows of increments so far.
     pub record: Record,
     /// Where it is in its cycles.
@@ -675,9 +679,13 @@ impl Stepper {
         if let (Some(scheme), Some(rates)) = (newton.step.scheme, &mut rates) {
             system.advance_rates(rates, &scheme, states);
         }
+        let from = self.state.time;
         self.state.clone_from(&self.newton.trial);
         self.state.rates = rates;
-        system.accept(&self.state)
+        system.accept(&self.state)?;
+        let times = [from, self.state.time];
+        heat::advance(&mut self.progress, &self.newton, system, times);
+        Ok(())
     }
 
     /// The step time at which an increment of about `dt` ends, no later than a pause.
@@ -769,6 +777,7 @@ impl Stepper {
         frame.step_number = self.progress.step;
         frame.cycles = self.progress.turns.done + self.progress.turns.stands_for;
         frame.work_external = self.progress.work.total;
+        frame.heat = self.progress.heat;
         if let Some(energies) = &mut frame.energies {
             energies.external = self.progress.work.total;
             if let Some(explicit) = &self.explicit {

@@ -105,6 +105,12 @@ impl ExternalWork {
         Ok(())
     }
 
+    /// What loads and supports exert on an unknown at the last accepted state.
+    pub fn exerted(&self, dof: Dof) -> [f64; 2] {
+        let at = |forces: &[f64]| forces.get(dof as usize).copied().unwrap_or_default();
+        [at(&self.loads), at(&self.supports)]
+    }
+
     /// Takes note of the forces at a state where an explicit step begins.
     ///
     /// # Errors

@@ -9,14 +9,16 @@
 //! | [`Stored`] | whatever has a history |
 //! | [`Viscous`] | viscous forces |
 //! | [`Wearing`] | material that it takes off |
+//! | [`Conducting`] | bodies and contacts that heat goes through |
 //! | [`Sampled`] | solids, trusses: values at integration points |
+//! | [`SampledHeat`] | bodies: fluxes of heat there |
 //! | [`Audited`] | contact |
 //! | [`Impulsive`] | contact: explicit steps |
 //! | [`Inertial`] | inertia: where there is none |
 
 use super::{
     Archive, ArchiveError, ContactAudit, Course, Frame, Impulsive, NodeId, Order, Samples, Sink,
-    State, TermError, Work,
+    SizedFlows, State, TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::Vec3;
@@ -38,7 +40,7 @@ pub struct Capabilities<'a> {
     /// Has integration points.
     pub sampled: Option<&'a dyn Sampled>,
     /// Has integration points with a flux of heat.
-    pub conducting: Option<&'a dyn Conducting>,
+    pub sampled_heat: Option<&'a dyn SampledHeat>,
     /// Is a contact.
     pub audited: Option<&'a dyn Audited>,
     /// Is a contact that may act in explicit steps.
@@ -47,6 +49,14 @@ pub struct Capabilities<'a> {
     pub inertial: Option<&'a dyn Inertial>,
     /// Is a contact whose sides wear.
     pub wearing: Option<&'a dyn Wearing>,
+    /// Stores heat, or sets some free.
+    pub conducting: Option<&'a dyn Conducting>,
+}
+
+/// A term that heat goes through.
+pub trait Conducting {
+    /// Heat per time in the last accepted increment: what it takes up, sets free, and gets from outside of bodies.
+    fn flows(&self) -> SizedFlows;
 }
 
 /// A term that takes material off.
@@ -172,7 +182,7 @@ pub trait Sampled {
 }
 
 /// A term that conducts heat through cells.
-pub trait Conducting {
+pub trait SampledHeat {
     /// Adds the flux of heat through present areas at the integration points of these cells, which are sorted, at an accepted state.
     ///
     /// # Errors

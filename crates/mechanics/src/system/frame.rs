@@ -1,4 +1,4 @@
-use super::{ContactAudit, Samples};
+use super::{ContactAudit, HeatBalance, Samples};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -178,6 +178,24 @@ pub struct ContactFrame {
     pub idle: IdleRows,
     /// What its sides have lost, where they wear.
     pub wear: Option<Wear>,
+    /// The heat across it, where it conducts and temperatures are unknown.
+    pub warmth: Option<ContactWarmth>,
+}
+
+/// Heat across a contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ContactWarmth {
+    /// Heat per time and area from the secondary side to the primary at each node of the secondary side, the mean over the points
+    /// around it; that of friction is not in it.
+    pub flux: Vec<f64>,
+    /// The conductance there, likewise.
+    pub conductance: Vec<f64>,
+    /// Heat per time and area that friction sets free there, likewise.
+    pub friction: Vec<f64>,
+    /// Heat per time from the secondary side to the primary.
+    pub through: f64,
+    /// Heat per time that friction sets free.
+    pub rubbed: f64,
 }
 
 /// What the sides of a contact have lost by wear.
@@ -257,6 +275,10 @@ impl ContactFrame {
         self.gap_min = self.gap_min.min(pass.gap_min);
         self.slip_max = self.slip_max.max(pass.slip_max);
         self.work_friction += pass.work_friction;
+        if let (Some(warmth), Some(other)) = (&mut self.warmth, &pass.warmth) {
+            warmth.through -= other.through;
+            warmth.rubbed += other.rubbed;
+        }
         if let (Some(faces), Some(others)) = (&mut self.faces, &pass.faces) {
             faces.extend(others);
         }
@@ -386,8 +408,10 @@ pub struct Frame {
     pub heat_flux: Vec<Vec3>,
     /// How much went into each of these means.
     pub heat_weight: Vec<f64>,
-    /// Heat that bodies took up since the start.
+    /// Heat that bodies took up since the start, in steps of all kinds.
     pub heat_stored: f64,
+    /// Where heat comes from and goes to; none where temperatures are no unknowns.
+    pub heat: Option<HeatBalance>,
     /// Contact force on each node, of both sides.
     pub contact_force: Vec<Vec3>,
     /// Contact pressure at each node, 0 where there is no contact.

@@ -53,6 +53,7 @@ mod conformance;
 mod course;
 mod elimination;
 mod frame;
+mod heat_flows;
 mod idealisation;
 mod impulsive;
 mod internal_forces;
@@ -82,14 +83,16 @@ pub use assembly::Assembly;
 pub use audited::{Check, ContactAudit, Measured};
 pub use capabilities::{
     Adaptive, Aid, Audited, Capabilities, Choices, Conducting, ContactNumbering, Elementwise,
-    Inertial, InitialStiffness, Sampled, Stored, Verdict, Viscous, Wearing,
+    Inertial, InitialStiffness, Sampled, SampledHeat, Stored, Verdict, Viscous, Wearing,
 };
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Energies, FluidFrame, Footprint, Frame, FreeMotion, IdleRows,
-    NodalValues, ReportedAs, Resultant, RigidFrame, SpinFrame, Status, Wear,
+    ContactFrame, ContactSample, ContactWarmth, Energies, FluidFrame, Footprint, Frame, FreeMotion,
+    IdleRows, NodalValues, ReportedAs, Resultant, RigidFrame, SpinFrame, Status, Wear,
 };
+pub(crate) use heat_flows::of_residuals;
+pub use heat_flows::{HeatBalance, HeatFlows, SizedFlows};
 pub use idealisation::{Idealisation, profile_at};
 pub use impulsive::{Acts, Impulsive, NearRow, Rubbing};
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};

@@ -192,13 +192,7 @@ impl System {
             term.report(state, &mut frame)?;
         }
         if !frame.heat_flux.is_empty() {
-            let flux = frame.heat_flux.iter().flat_map(|flux| flux.to_array());
-            frame.fields.push(NodalValues {
-                name: "heat_flux",
-                ncomponent: 3,
-                values: flux.collect(),
-                reaction: Vec::new(),
-            });
+            frame.fields.extend(of_heat(&frame));
         }
         if let Some(energies) = &mut frame.energies {
             let of_contacts = frame.contacts.iter();
@@ -290,6 +284,24 @@ impl System {
     }
 }
 
+/// What follows from temperatures that are unknowns: the flux of heat, and what it takes to hold them.
+fn of_heat(frame: &Frame) -> [NodalValues; 2] {
+    let flux = frame.heat_flux.iter().flat_map(|flux| flux.to_array());
+    let mut fields = frame.fields.iter();
+    let temperature = fields.find(|field| field.name == Layout::TEMPERATURE.name);
+    let reaction = temperature.map(|field| field.reaction.clone());
+    let field = |name, ncomponent, values| NodalValues {
+        name,
+        ncomponent,
+        values,
+        reaction: Vec::new(),
+    };
+    [
+        field("heat_flux", 3, flux.collect()),
+        field("reaction_heat", 1, reaction.unwrap_or_default()),
+    ]
+}
+
 /// The samples of these cells, which are sorted, at an accepted state.
 ///
 /// # Errors
@@ -318,9 +330,7 @@ fn heat_samples_of(
 ) -> Result<Samples<Vec3>, TermError> {
     let mut samples = Samples::default();
     if !cells.is_empty() {
-        let conducting = terms
-            .iter()
-            .filter_map(|term| term.capabilities().conducting);
+        let conducting = terms.iter().filter_map(|term| term.capabilities().sampled_heat);
         for term in conducting {
             term.sample_heat(state, cells, &mut samples)?;
         }

@@ -153,11 +153,14 @@ fn the_heat_of_friction_is_its_work_and_stays_in_the_bodies() {
                 let frame = run.frames.last().unwrap();
                 let before = &run.frames[0];
                 let work = frame.contacts[0].work_friction - before.contacts[0].work_friction;
-                let stored = frame.heat_stored;
+                let heat = frame.heat.unwrap();
+                let stored = heat.total.stored;
                 let what = format!("{ndim} {method} {enforcement}");
                 assert!(work > 1.0, "{what}: {work}");
                 let off = (stored - 0.9 * work).abs() / stored;
                 assert!(off < 1e-6 + loss, "{what}: {stored} {work} {off:e}");
+                let freed = heat.total.friction;
+                assert!((stored - freed).abs() < 1e-10 * freed, "{what}: {heat:?}");
             }
         }
     }

@@ -8,6 +8,7 @@
 //! TOLERANCE   see each test
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
 
+mod balance;
 mod boxes;
 #[path = "../common/mod.rs"]
 mod common;
@@ -21,7 +22,7 @@ mod time;
 
 use boxes::Boxes;
 use common::Run;
-use signorini_mechanics::system::Frame;
+use signorini_mechanics::system::{Frame, HeatBalance};
 
 /// Runs a case that is solved.
 #[track_caller]

@@ -54,7 +54,7 @@ fn what_is_stored_came_in_at_the_support() {
     let mut came = 0.0;
     for frame in &run.frames {
         came += heat_in(frame)[0] * 0.01;
-        assert!((frame.heat_stored - came).abs() < 1e-12 * came.abs().max(1e-3));
+        assert!((frame.heat.unwrap().total.stored - came).abs() < 1e-12 * came.abs().max(1e-3));
     }
     assert!(came > 0.03);
 }
@@ -132,7 +132,7 @@ fn phases_that_change_take_their_latent_heat_whatever_the_increments() {
         for t in at(frame, &boxes, "ice_all") {
             assert!((t - expected).abs() < 1e-6, "{increments}: {t} {expected}");
         }
-        assert!((frame.heat_stored - 120.0).abs() < 1e-9 * 120.0);
+        assert!((frame.heat.unwrap().total.stored - 120.0).abs() < 1e-9 * 120.0);
     }
 }
 

@@ -384,6 +384,7 @@ impl Interface {
         out.put(name("shifts"), &shifts);
         self.store_fluid(out);
         self.store_wear(out);
+        self.store_heat(out);
     }
 
     pub(super) fn restore(&mut self, from: &Archive) -> Result<(), ArchiveError> {
@@ -478,6 +479,7 @@ impl Interface {
         self.parts.shifts = shifts.iter().map(shift).collect();
         self.restore_fluid(from)?;
         self.restore_wear(from)?;
+        self.restore_heat(from)?;
         self.now.pairs.clone_from(&self.accepted.pairs);
         self.resumed = self.started;
         self.history.begin();

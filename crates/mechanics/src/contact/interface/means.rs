@@ -21,6 +21,7 @@ pub(super) struct Means {
     pub slip: Vec<Vec3>,
     pub elastic_slip: Vec<Vec3>,
     pub damage: Vec<f64>,
+    pub heat: Vec<[f64; 3]>,
 }
 
 /// What a row adds to the means.
@@ -37,6 +38,8 @@ pub(super) struct OfRow {
     pub elastic_slip: Vec3,
     /// Of a bond that may break.
     pub damage: f64,
+    /// Per area: the flux out of the side whose means these are, the conductance, and the heat of friction.
+    pub heat: [f64; 3],
 }
 
 impl Means {
@@ -53,6 +56,7 @@ impl Means {
             slip: vec![Vec3::ZERO; n],
             elastic_slip: vec![Vec3::ZERO; n],
             damage: vec![0.0; n],
+            heat: vec![[0.0; 3]; n],
         }
     }
 
@@ -68,6 +72,8 @@ impl Means {
         self.slip[k] += row.slip * weight;
         self.elastic_slip[k] += row.elastic_slip * weight;
         self.damage[k] += weight * row.damage;
+        let heat = self.heat[k].iter_mut().zip(row.heat);
+        heat.for_each(|(sum, of_row)| *sum += weight * of_row);
     }
 
     /// A row that meets nothing.
@@ -89,6 +95,7 @@ impl Means {
             slip: self.slip[k] / weight,
             elastic_slip: self.elastic_slip[k] / weight,
             damage: self.damage[k] / weight,
+            heat: self.heat[k].map(|sum| sum / whole),
         })
     }
 }

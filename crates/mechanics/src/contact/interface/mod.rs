@@ -34,6 +34,7 @@ mod row_heat;
 mod rows;
 mod term;
 mod thermal;
+mod warmth;
 mod wear;
 mod weighted;
 mod wet;
@@ -70,6 +71,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
+use warmth::Warmth;
 use wet::Wetting;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
@@ -137,6 +139,8 @@ pub struct Interface {
     wetting: Wetting,
     /// What its sides have lost.
     worn: Worn,
+    /// The heat across it.
+    warmth: Warmth,
 }
 
 /// Overlaps that an increment allows for.
@@ -208,6 +212,7 @@ impl Interface {
             increment_start: 0.0,
             wetting: Wetting::default(),
             worn,
+            warmth: Warmth::default(),
         }
     }
 

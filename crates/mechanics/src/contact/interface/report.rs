@@ -5,7 +5,9 @@ use super::{Contact, Interface, Measure, Order, Participant, Rows, Scratch, Stat
 use crate::contact::discretization::OnRow;
 use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
-use crate::system::{ContactFrame, ContactSample, Footprint, Frame, Resultant, Status};
+use crate::system::{
+    ContactFrame, ContactSample, ContactWarmth, Footprint, Frame, Resultant, Status,
+};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
@@ -33,6 +35,7 @@ struct Found {
     direction: Vec3,
     elastic_slip: Vec3,
     damage: f64,
+    heat: [f64; 3],
 }
 
 /// A report while rows are added to it.
@@ -79,6 +82,9 @@ impl Sums {
                 if let Some(damage) = report.damage.get_mut(k) {
                     *damage = mean.damage;
                 }
+                if let Some(warmth) = &mut report.warmth {
+                    warmth.add(k, mean.heat);
+                }
                 // rows of its node that meet nothing, as on another side of an edge, have no part in the means
                 report.area[k] = means.whole[k];
             }
@@ -105,6 +111,9 @@ fn hand_over(report: ContactFrame, across: &Means, first: Option<usize>, frame: 
                     first.traction[k] += mean.traction;
                     first.multiplier[k] += mean.multiplier;
                     first.multiplier_traction[k] += mean.multiplier_traction;
+                    if let Some(warmth) = &mut first.warmth {
+                        warmth.add(k, mean.heat);
+                    }
                 }
             }
             first.add_pass(&report);
@@ -134,6 +143,29 @@ impl ContactSample {
             self.slip = self.slip / self.area;
         }
         self.normal = self.normal.normalized().unwrap_or_default();
+    }
+}
+
+impl ContactWarmth {
+    fn new(nnode: usize) -> Self {
+        let nothing = || vec![0.0; nnode];
+        Self {
+            flux: nothing(),
+            conductance: nothing(),
+            friction: nothing(),
+            through: 0.0,
+            rubbed: 0.0,
+        }
+    }
+
+    /// Adds flux, conductance and heat of friction at a node.
+    fn add(&mut self, k: usize, heat: [f64; 3]) {
+        let fields = [&mut self.flux, &mut self.conductance, &mut self.friction];
+        for (field, value) in fields.into_iter().zip(heat) {
+            if let Some(to) = field.get_mut(k) {
+                *to += value;
+            }
+        }
     }
 }
 
@@ -235,6 +267,7 @@ impl Interface {
             slip: self.history.slip(row),
             elastic_slip: found.elastic_slip,
             damage: found.damage,
+            heat: found.heat.map(|value| value * stretch),
         })
     }
 
@@ -389,6 +422,7 @@ impl Interface {
                     direction,
                     elastic_slip,
                     damage,
+                    heat: [0.0; 3],
                 });
             }
             let weight = on_row.pressure * present;
@@ -404,6 +438,13 @@ impl Interface {
                 self.add_forces((row, None), state, Order::Residual, &mut scratch);
                 let forces = (&scratch.rows, &scratch.force[..]);
                 self.distribute(forces, state, (report, first), frame);
+            }
+            if let (Some(warmth), Some(found)) = (&mut report.warmth, &mut reported.found) {
+                let heat = self.warmth_of(row, state, &mut scratch)?;
+                let measure = self.measure(row) * coverage;
+                warmth.through += measure * heat[0];
+                warmth.rubbed += measure * heat[2];
+                found.heat = heat.map(|value| value * per_area);
             }
             all.push(reported);
             on_rows.push(on_row);
@@ -525,6 +566,7 @@ impl Interface {
         let reaction = OfRow {
             traction: -of_row.traction,
             multiplier_traction: -of_row.multiplier_traction,
+            heat: [-of_row.heat[0], of_row.heat[1], of_row.heat[2]],
             ..of_row
         };
         for (node, shape) in facet.iter().zip(jet.shape) {
@@ -582,6 +624,7 @@ impl Interface {
             facet_size: self.parts.scale.length,
             reported_as: self.parts.reported_as.clone(),
             drift: self.drift,
+            warmth: self.heat().map(|_| ContactWarmth::new(n)),
             ..ContactFrame::default()
         }
     }

@@ -39,6 +39,28 @@ pub(super) struct ThermalScratch {
     pub slopes: Slopes,
 }
 
+/// What goes across a row, over its measure.
+pub(super) struct Crossing {
+    pub conducted: Conducted,
+    /// [θ] and θ_m.
+    pub jump_and_mean: [f64; 2],
+    /// The part of it that counts, and the measure times that.
+    pub share: f64,
+    pub weight: f64,
+    /// 𝒟 and what becomes of it.
+    pub power: f64,
+    pub friction: FrictionHeat,
+}
+
+impl Crossing {
+    /// q, h and η 𝒟 of its share.
+    pub fn per_area(&self) -> [f64; 3] {
+        let [jump, _] = self.jump_and_mean;
+        let h = self.conducted.h;
+        [h * jump, h, self.friction.fraction * self.power].map(|value| self.share * value)
+    }
+}
+
 impl ThermalScratch {
     /// The temperature of a surface without nodes; any where it has none, for it insulates.
     pub fn of_surface(&mut self, given: Option<f64>) -> f64 {

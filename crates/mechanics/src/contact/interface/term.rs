@@ -126,6 +126,7 @@ impl Term for Interface {
             audited: Some(self),
             impulsive: self.parts.bond.is_none().then_some(self),
             wearing: self.parts.wear.is_some().then_some(self),
+            conducting: self.parts.heat.is_some().then_some(self),
             ..Capabilities::default()
         }
     }
@@ -269,6 +270,7 @@ impl Choices for Interface {
 
 impl Stored for Interface {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.keep_heat(state)?;
         self.keep_fluid(state)?;
         self.keep_gaps();
         self.ends.keep();

@@ -18,7 +18,7 @@
 //! section 9.7.
 
 use super::conducting::{ContactHeat, FrictionHeat};
-use super::row_heat::{OfParticipant, ThermalScratch};
+use super::row_heat::{Crossing, OfParticipant, ThermalScratch};
 use super::rows::row_order;
 use super::{Answer, Interface, Laws, Order, Participant, Rows, Scratch, Sink, State, TermError};
 use crate::contact::law::{Between, Conductance, Conducted};
@@ -71,19 +71,74 @@ impl Interface {
         scratch: &mut Scratch,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
-        let Some(heat) = self.heat() else {
+        let Some(crossing) = self.crossing((row, answer), trial, order, scratch)? else {
             return Ok(());
         };
-        if self.now.pairs.get(row).is_none_or(Option::is_none) {
+        let Crossing {
+            conducted,
+            share,
+            weight,
+            power,
+            friction,
+            ..
+        } = crossing;
+        let [jump, _] = crossing.jump_and_mean;
+        if conducted == Conducted::default() && power == 0.0 {
             return Ok(());
+        }
+        let s = &mut scratch.thermal;
+        s.add_residual(&conducted, jump, (weight, power), friction);
+        s.stiffness.clear();
+        s.coupling.clear();
+        if order == Order::Tangent {
+            s.add_stiffness(&conducted, jump, weight);
+        }
+        out.add(&s.dofs, &s.force, &s.stiffness);
+        if order == Order::Tangent
+            && self.step.physics.moves
+            && let Some(filled) = scratch.rows.rows().first()
+        {
+            s.couple(
+                filled,
+                (&conducted, crossing.jump_and_mean),
+                (weight, power),
+                (friction, self.duration),
+            );
+            scratch.rows.dofs(&self.layout, &mut scratch.dofs);
+            self.multiplier_dofs(row, &mut scratch.dofs);
+            out.couple(&s.dofs, &scratch.dofs, &s.coupling);
+        }
+        // the rounding of temperatures, and that of positions through the pressure
+        let s = &scratch.thermal;
+        let temperatures = s.participants.iter().map(|of| of.temperature.abs());
+        let far = temperatures.fold(0.0, f64::max);
+        let pressed = self.rounding(&scratch.rows, trial, answer) * conducted.dpressure * jump;
+        let error = f64::EPSILON * weight * conducted.h.abs() * far + share * pressed.abs();
+        out.uncertain(&s.dofs, error);
+        Ok(())
+    }
+
+    /// What goes across a row, with its participants in the scratch; none where nothing can.
+    pub(super) fn crossing(
+        &self,
+        (row, answer): (usize, Option<&Answer>),
+        trial: &State,
+        order: Order,
+        scratch: &mut Scratch,
+    ) -> Result<Option<Crossing>, TermError> {
+        let Some(heat) = self.heat() else {
+            return Ok(None);
+        };
+        if self.now.pairs.get(row).is_none_or(Option::is_none) {
+            return Ok(None);
         }
         self.fill(row, trial, row_order(order), &mut scratch.rows)?;
         let Some(filled) = scratch.rows.rows().first() else {
-            return Ok(());
+            return Ok(None);
         };
         let s = &mut scratch.thermal;
         if !self.take_temperatures(heat, &scratch.rows, filled, trial, s) {
-            return Ok(());
+            return Ok(None);
         }
         let lambda = self.lambda(row, trial);
         let laws = Laws {
@@ -93,7 +148,8 @@ impl Interface {
         let past = self.history.past(row);
         let width = filled.weights.len() + self.ncolumn_of_multiplier();
         let pressure = laws.slopes(filled, &lambda, past, width, &mut s.slopes);
-        let [jump, mean] = s.jump_and_mean();
+        let jump_and_mean = s.jump_and_mean();
+        let [jump, mean] = jump_and_mean;
         let at = Between {
             pressure: pressure.max(0.0),
             gap: filled.gap,
@@ -107,14 +163,10 @@ impl Interface {
         if pressure <= 0.0 {
             conducted.dpressure = 0.0;
         }
-        let weight = heat.share * self.measure(row);
         let power = match heat.friction.filter(|_| self.duration > 0.0) {
             Some(_) => s.slopes.dissipated / self.duration,
             None => 0.0,
         };
-        if conducted == Conducted::default() && power == 0.0 {
-            return Ok(());
-        }
         let mut friction = heat.friction.unwrap_or(FrictionHeat {
             fraction: 0.0,
             to_secondary: 0.5,
@@ -122,32 +174,14 @@ impl Interface {
         if s.insulated {
             friction.to_secondary = 1.0;
         }
-        s.add_residual(&conducted, jump, (weight, power), friction);
-        s.stiffness.clear();
-        s.coupling.clear();
-        if order == Order::Tangent {
-            s.add_stiffness(&conducted, jump, weight);
-        }
-        out.add(&s.dofs, &s.force, &s.stiffness);
-        if order == Order::Tangent && self.step.physics.moves {
-            s.couple(
-                filled,
-                (&conducted, [jump, mean]),
-                (weight, power),
-                (friction, self.duration),
-            );
-            scratch.rows.dofs(&self.layout, &mut scratch.dofs);
-            self.multiplier_dofs(row, &mut scratch.dofs);
-            out.couple(&s.dofs, &scratch.dofs, &s.coupling);
-        }
-        // the rounding of temperatures, and that of positions through the pressure
-        let s = &scratch.thermal;
-        let temperatures = s.participants.iter().map(|of| of.temperature.abs());
-        let far = temperatures.fold(0.0, f64::max);
-        let pressed = self.rounding(&scratch.rows, trial, answer) * conducted.dpressure * jump;
-        let error = f64::EPSILON * weight * conducted.h.abs() * far + heat.share * pressed.abs();
-        out.uncertain(&s.dofs, error);
-        Ok(())
+        Ok(Some(Crossing {
+            conducted,
+            jump_and_mean,
+            share: heat.share,
+            weight: heat.share * self.measure(row),
+            power,
+            friction,
+        }))
     }
 
     /// Takes β and θ of the participants; false where nothing is opposite.

@@ -32,9 +32,9 @@ mod cells;
 use super::error::SolidError;
 use crate::material::{Conductor, pulled_back};
 use crate::system::{
-    Activity, Archive, ArchiveError, Capabilities, Conducting, Dof, Frame, Heat, Idealisation,
-    Layout, LocalHeat, Order, Part, PatternSink, Phase, Properties, Samples, Sink, State,
-    StepContext, Stored, Symmetry, Term, TermError, Work,
+    Activity, Archive, ArchiveError, Capabilities, Conducting, Dof, Frame, Heat, HeatFlows,
+    Idealisation, Layout, LocalHeat, Order, Part, PatternSink, Phase, Properties, SampledHeat,
+    Samples, Sink, SizedFlows, State, StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use cells::{Block, Place};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -96,6 +96,8 @@ pub struct HeatInBody {
     dt: f64,
     /// Temperatures where the increment began.
     before: Vec<f64>,
+    /// What it took up per time in the last accepted increment.
+    taken: SizedFlows,
     /// Heat that went in since the start.
     stored: f64,
 }
@@ -157,6 +159,7 @@ impl HeatInBody {
             step: StepContext::default(),
             dt: 0.0,
             before: Vec::new(),
+            taken: SizedFlows::default(),
             stored: 0.0,
         })
     }
@@ -438,14 +441,17 @@ impl HeatInBody {
         Ok(())
     }
 
-    /// The heat that the body took up in the increment that ends at a state.
-    fn taken_up(&self, state: &State) -> Result<f64, TermError> {
-        let (mut total, mut scratch) = (0.0, Scratch::default());
+    /// The heat per time that the body took up in the increment that ends at a state.
+    fn taken_up(&self, state: &State) -> Result<SizedFlows, TermError> {
+        let (mut total, mut scratch) = (SizedFlows::default(), Scratch::default());
         for chunk in 0..self.chunks.len() {
             self.each(chunk, state, &mut scratch, |block, cell, s| {
                 s.heat.clear(Order::Residual, false);
                 self.store(block, cell, Order::Residual, s)?;
-                total += s.heat.flow.iter().sum::<f64>() * self.dt;
+                total.add(HeatFlows {
+                    stored: s.heat.flow.iter().sum(),
+                    ..HeatFlows::default()
+                });
                 Ok(())
             })?;
         }
@@ -585,6 +591,7 @@ impl Term for HeatInBody {
         Capabilities {
             stored: Some(self),
             conducting: Some(self),
+            sampled_heat: Some(self),
             ..Capabilities::default()
         }
     }
@@ -595,6 +602,12 @@ impl Term for HeatInBody {
 }
 
 impl Conducting for HeatInBody {
+    fn flows(&self) -> SizedFlows {
+        self.taken
+    }
+}
+
+impl SampledHeat for HeatInBody {
     fn sample_heat(
         &self,
         state: &State,
@@ -618,9 +631,14 @@ impl Conducting for HeatInBody {
 
 impl Stored for HeatInBody {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.taken = SizedFlows::default();
         // what is stored is a matter of temperatures, however they come about
         if self.conductor.stores() && self.step.scheme.is_none() && self.dt > 0.0 {
-            self.stored += self.taken_up(state)?;
+            let taken = self.taken_up(state)?;
+            self.stored += taken.sum.stored * self.dt;
+            if self.is_transient() {
+                self.taken = taken;
+            }
         }
         Ok(())
     }
