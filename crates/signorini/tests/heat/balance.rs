@@ -113,12 +113,20 @@ fn rubbing_in(ndim: usize, base: &str, contact: &str) -> (Boxes, String) {
 }
 
 #[test]
-fn the_heat_of_friction_goes_into_bodies_and_surfaces() {
+fn the_heat_of_friction_goes_into_bodies_and_surfaces_and_is_counted_in_every_pass() {
     let penalty = "enforcement = { penalty = 1e5 }";
     for (base, contact) in [
         (
             "material = \"m\"",
             "method = \"mortar\"\nenforcement = { penalty = 1e5 }",
+        ),
+        (
+            "material = \"m\"",
+            "method = \"node-to-segment\"\nenforcement = { penalty = 1e5 }\npasses = 2",
+        ),
+        (
+            "material = \"m\"",
+            "method = \"gauss-point\"\nenforcement = { penalty = 1e5 }\npasses = 2",
         ),
         (
             "rigid = true",

@@ -11,14 +11,14 @@ pub struct ContactHeat {
     pub friction: Option<FrictionHeat>,
     /// The temperature of a primary side that has no nodes; none: it neither gives nor takes heat.
     pub primary: Option<f64>,
-    /// The part of the conductance that counts: a half in each of two passes.
+    /// The part of the conductance that counts: a half in each of two passes. The heat of friction is that of the work of each.
     pub share: f64,
 }
 
 /// What becomes of the heat of friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionHeat {
-    /// η: the part of its work that becomes heat.
+    /// η: the part of its work that becomes heat, over the share of the conductance that counts.
     pub fraction: f64,
     /// f: the part of that which the secondary side takes.
     pub to_secondary: f64,
@@ -28,8 +28,14 @@ impl ContactHeat {
     /// The same in each of so many passes.
     #[must_use]
     pub fn in_passes(self, count: u32) -> Self {
+        let count = f64::from(count);
+        let friction = self.friction.map(|of| FrictionHeat {
+            fraction: of.fraction * count,
+            ..of
+        });
         Self {
-            share: self.share / f64::from(count),
+            friction,
+            share: self.share / count,
             ..self
         }
     }
