@@ -509,6 +509,13 @@ codes! {
     ["look at `contact_wet` in the results for the way it took", "press the sides together harder",
      "silence with  allow = [\"S0436\"]  where it is meant to leak"]
 
+    HEAT_LOST "S0437" Input "heat that is lost or made"
+    "In every increment that finds temperatures, the heat that comes in by loads, held temperatures, rigid surfaces and friction is \
+     added up, and what bodies store is taken off. What remains is more than rounding and the tolerance of Newton's method explain: \
+     temperatures of these increments are not in balance."
+    ["a coarse `force_tol` of Newton's method", "one part of the model takes up far less heat than another, and is solved for coarsely"]
+    ["a smaller tolerance:  newton = { force_tol = 1e-12 }  in [solver]", "smaller increments", "make it an error:  --strict"]
+
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
      before it are saved."

@@ -435,6 +435,9 @@ pub struct AuditSummary {
     pub unheld: Vec<UnheldEntry>,
     /// The worst of each check, by contact, then check: `apart`, `through`, `direction`, `stress`.
     pub contacts: BTreeMap<String, BTreeMap<String, AuditEntry>>,
+    /// What is lost or made of heat, over the largest heat per time; none where no step finds temperatures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<AuditEntry>,
 }
 
 /// Bodies that moved freely and that nothing stopped.

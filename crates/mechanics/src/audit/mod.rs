@@ -19,6 +19,7 @@
 //! | t, A | traction on the secondary side at a node, and its area | |
 //! | ν | the normal of the primary side at the closest point | |
 //! | σ | Cauchy stress at a node, the mean over the elements around it | |
+//! | Q | `HeatFlows`: heat per time by loads, by what holds temperatures, from rigid surfaces, of friction, and into storage | |
 //! | W, W_∞ | `FreeMotion::work`, `work_throughout`: of viscous forces in an increment, and had they acted throughout | energy |
 //!
 //! ```text
@@ -30,6 +31,8 @@
 //!                  with |t| > STRAINED |σ|
 //! (A5) energy      work of viscous forces in jumps over Σ |ΔW| of loads and supports
 //! (A6) stopped     Σ |f·Δu| of contact forces on bodies that only contact holds  ≥  max(STOPPED · W, TOUCHED · W_∞)
+//! (A7) heat        |Σ Q_in − Q_stored + R| over the largest Q of all increments so far, where it is more than rounding, and what |R|
+//!                  is above HEAT_LEFT of that; R: the sum of the residuals of free temperatures
 //! ```
 //!
 //! Where energy is conserved, a pressure belongs to an increment and not to its end: (A1) and (A2) allow for what the gap moves in one.
@@ -56,8 +59,8 @@ mod stress;
 mod support;
 
 use crate::system::{ContactAudit, ContactFrame, Frame, FreeMotion, Measured};
+use rules::{HEAT, HEAT_LEFT, VISCOUS, nothing, worst};
 pub use rules::{Rules, Sides};
-use rules::{VISCOUS, nothing, worst};
 use support::Support;
 
 /// Audits one contact at an accepted state.
@@ -105,6 +108,21 @@ const TOUCHED: f64 = 1e-7;
 pub fn stopped(motion: &FreeMotion) -> bool {
     let least = (STOPPED * motion.work).max(TOUCHED * motion.work_throughout);
     motion.opposed >= least
+}
+
+/// Audits the balance of heat (A7), where the largest heat per time before was this; none where no temperature was found.
+#[must_use]
+pub fn heat(frame: &Frame, largest: f64) -> Option<Measured> {
+    let balance = frame.heat.as_ref().filter(|of| of.turnover > 0.0)?;
+    let largest = largest.max(balance.turnover);
+    let lost = (balance.lost() * balance.turnover).abs();
+    let left = (balance.left.abs() - HEAT_LEFT * largest).max(0.0);
+    Some(Measured {
+        part: (lost + left) / largest,
+        worst: (balance.imbalance() * balance.turnover).abs(),
+        allowed: largest,
+        ..nothing(HEAT)
+    })
 }
 
 /// Audits the work of viscous forces that led to another equilibrium where there was none nearby (A5).

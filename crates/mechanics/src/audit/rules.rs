@@ -74,6 +74,13 @@ pub trait Rules: Sync {
 /// The part of the work of loads and supports that viscous forces may do in jumps.
 pub(super) const VISCOUS: f64 = 0.05;
 
+/// The part of the largest heat per time that equations may lose or make.
+pub(super) const HEAT: f64 = 1e-8;
+
+/// The part of it that the iteration may leave in all free nodes together: by the usual tolerance, 1e-6 of the mean heat at a node, it
+/// is 1e-6 and less.
+pub(super) const HEAT_LEFT: f64 = 1e-4;
+
 /// How many nodes a finding names.
 pub(super) const NAMED: usize = 4;
 

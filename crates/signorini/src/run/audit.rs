@@ -1,5 +1,6 @@
 //! What the audits of accepted states found in the course of a run, and how it is reported.
 
+use super::heat::HeatAudit;
 use super::remedies::MOTION_INSTEAD;
 use crate::setup::{LISTED, Model, and_so_on, first_step, hold_it};
 use signorini_geometry::mesh::{Mesh, NodeId};
@@ -14,14 +15,14 @@ use std::collections::BTreeMap;
 
 /// The results of one check of a contact.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Worst {
+pub(super) struct Worst {
     /// The worst of all increments.
-    measured: Measured,
+    pub measured: Measured,
     /// When.
-    time: f64,
+    pub time: f64,
     /// Increments in which it did not pass, and the time of the first.
-    failed: u64,
-    first: f64,
+    pub failed: u64,
+    pub first: f64,
 }
 
 /// What the audits found so far.
@@ -38,6 +39,7 @@ pub struct Audit {
     /// Bodies that moved freely, by their names, until something stops them.
     unheld: BTreeMap<String, Free>,
     gain: Gain,
+    heat: HeatAudit,
 }
 
 /// Energy that the method of going through time has added to a motion with inertia.
@@ -124,6 +126,7 @@ impl Audit {
             self.jumped.get_or_insert(frame.time);
         }
         self.gain.look(frame);
+        self.heat.look(frame);
         for motion in &frame.free_motions {
             if stopped(motion) {
                 self.unheld.remove(&*motion.bodies);
@@ -150,18 +153,10 @@ impl Audit {
 
     /// The entry of `summary.json`.
     pub fn summary(&self, mesh: &Mesh) -> AuditSummary {
-        let entry = |worst: &Worst| AuditEntry {
-            passed: worst.failed == 0,
-            part: worst.measured.part,
-            limit: worst.measured.limit,
-            time: worst.time,
-            increments: worst.failed,
-            nodes: labels(mesh, &worst.measured.nodes).collect(),
-        };
         let of = |checks: &[Worst; 4]| {
             let named = Check::ALL.iter().zip(checks);
             named
-                .map(|(c, w)| (c.name().to_owned(), entry(w)))
+                .map(|(c, w)| (c.name().to_owned(), w.entry(mesh)))
                 .collect()
         };
         let unheld = self.unheld.iter().map(|(bodies, free)| UnheldEntry {
@@ -174,12 +169,14 @@ impl Audit {
         AuditSummary {
             passed: all.fold(self.viscous.passes(), |ok, w| ok && w.failed == 0)
                 && self.unheld.is_empty()
+                && self.heat.passes()
                 && self.gain.part() <= GAINED,
             work_external: self.work_external,
             part_viscous: self.viscous.part,
             part_gained: self.gain.part(),
             unheld: unheld.collect(),
             contacts: contacts.map(|(n, c)| (n.clone(), of(c))).collect(),
+            heat: self.heat.seen().map(|worst| worst.entry(mesh)),
         }
     }
 
@@ -208,6 +205,9 @@ impl Audit {
             let mut methods = model.steps.iter().filter_map(|step| step.scheme);
             let is_explicit = methods.any(|scheme| scheme.explicit.is_some());
             found.push(self.gain.warning(is_explicit));
+        }
+        if !self.heat.passes() {
+            found.push(self.heat.warning(self.increments));
         }
         found
     }
@@ -280,22 +280,9 @@ impl Audit {
                 ),
             ),
         };
-        let times = match worst.failed {
-            1 => format!(
-                "in 1 of {} increments, at time {}",
-                self.increments,
-                number(worst.time)
-            ),
-            n => format!(
-                "in {n} of {} increments, first at time {}, worst at {}",
-                self.increments,
-                number(worst.first),
-                number(worst.time)
-            ),
-        };
         let diagnostic = Diagnostic::warning(code, message)
             .note(fact(check, m))
-            .note(times);
+            .note(worst.times(self.increments));
         let helps = help(name, check, model);
         helps.into_iter().fold(diagnostic, Diagnostic::help)
     }
@@ -328,6 +315,7 @@ impl Audit {
         let gain = [self.gain.energy, self.gain.time, self.gain.largest];
         archive.put_f64("run/audit.gain", &gain)?;
         archive.put_f64("run/audit.jumped", self.jumped.as_slice())?;
+        self.heat.save(archive)?;
         archive.put_u64("run/audit.names", &names)?;
         archive.put_u64("run/audit.counts", &counts)?;
         archive.put_f64("run/audit.numbers", &numbers)
@@ -381,6 +369,7 @@ impl Audit {
                 largest,
             },
             unheld,
+            heat: HeatAudit::restored(archive),
             increments,
             work_external,
             viscous: Measured {
@@ -395,7 +384,34 @@ impl Audit {
 }
 
 impl Worst {
-    fn take(&mut self, measured: &Measured, time: f64) {
+    /// The entry of `summary.json`.
+    fn entry(&self, mesh: &Mesh) -> AuditEntry {
+        AuditEntry {
+            passed: self.failed == 0,
+            part: self.measured.part,
+            limit: self.measured.limit,
+            time: self.time,
+            increments: self.failed,
+            nodes: labels(mesh, &self.measured.nodes).collect(),
+        }
+    }
+
+    /// In which of so many increments it failed.
+    pub fn times(&self, increments: u64) -> String {
+        match self.failed {
+            1 => format!(
+                "in 1 of {increments} increments, at time {}",
+                number(self.time)
+            ),
+            n => format!(
+                "in {n} of {increments} increments, first at time {}, worst at {}",
+                number(self.first),
+                number(self.time)
+            ),
+        }
+    }
+
+    pub fn take(&mut self, measured: &Measured, time: f64) {
         if !measured.passes() {
             if self.failed == 0 {
                 self.first = time;
@@ -557,7 +573,7 @@ fn help(name: &str, check: Check, model: &Model) -> Vec<String> {
 }
 
 /// Four digits, without zeros at the end.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || (1e-3..1e5).contains(&size) {
         let digits = if size > 0.0 {
@@ -662,6 +678,7 @@ mod tests {
         let mut looked = frame(1.0, 0.5);
         looked.free_motions.push(free("\"pin\" and \"ring\"", 0.0));
         looked.free_motions.push(free("\"plate\"", 0.0));
+        looked.heat = Some(super::super::heat::tests::balance(1.0));
         audit.look(&looked);
         let mut archive = Archive::new();
         audit.save(&mut archive).unwrap();

@@ -29,6 +29,7 @@ mod failure;
 mod fields;
 mod frd;
 mod frequencies;
+mod heat;
 mod history;
 mod idle;
 mod leaks;

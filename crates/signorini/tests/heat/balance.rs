@@ -1,6 +1,12 @@
-//! Where heat comes from and goes to.
+//! Where heat comes from and goes to, and its audit.
 
 use super::*;
+use signorini::setup::build;
+use signorini::{Finished, News, Reading, RunOptions, open_text};
+use signorini_io::fs::{Fs, MemoryFs};
+use signorini_mechanics::solve::Flow;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A bar of k = 10 and length 1 with its left end at 100, and these keys of its right end.
 fn bar(ndim: usize, capacity: &str, keys: &str, rest: &str) -> (Boxes, String) {
@@ -197,4 +203,41 @@ fn contacts_have_the_flux_and_the_conductance_of_the_closed_form() {
             assert!(lost(&run) < 1e-10, "{what}");
         }
     }
+}
+
+/// Runs a case to its end, with what these keys change, and the text of a file of its folder.
+fn files(text: &str, strict: bool) -> (Finished, impl Fn(&str) -> String + use<>) {
+    let fs: Arc<dyn Fs> = Arc::new(MemoryFs::default());
+    let opened = open_text("case.toml".as_ref(), text.into(), &Reading::default());
+    let opened = opened.unwrap_or_else(|found| panic!("{}", found.plain()));
+    let loaded = opened.with_mesh().unwrap();
+    let mut options = RunOptions::new(loaded.source);
+    (options.fs, options.strict) = (Arc::clone(&fs), strict);
+    let folder: PathBuf = options.folder.clone();
+    let mut model = build(loaded.case, loaded.mesh).unwrap_or_else(|e| panic!("{}", e.plain()));
+    let finished = signorini::run(&mut model, &options, &mut |_: &News<'_>| Flow::Continue);
+    let text = move |name: &str| {
+        let bytes = fs.read(&folder.join(name)).unwrap();
+        String::from_utf8_lossy(&bytes).into_owned()
+    };
+    (finished, text)
+}
+
+#[test]
+fn states_that_are_not_in_balance_are_doubted() {
+    let keys = "on = \"bar_right\", radiation = { emissivity = 0.9, sink = 500.0 }";
+    let (_, text) = bar(2, "", keys, "thermal = \"transient\"\n");
+    let coarse = text + "[solver]\nnewton = { force_tol = 0.3 }\n";
+    let (finished, file) = files(&coarse, true);
+    assert_eq!(finished.exit_code, 1, "{}", finished.diagnostics.plain());
+    let said = finished.diagnostics.plain();
+    assert!(
+        said.contains("[S0437]") && said.contains("heat is lost or made"),
+        "{said}"
+    );
+    assert!(file("summary.json").contains("\"status\": \"audit failed\""));
+    let audit = finished.summary.audit;
+    assert!(!audit.passed && audit.heat.unwrap().part > 1e-8);
+    let (finished, _) = files(&format!("allow = [\"S0437\"]\n{coarse}"), true);
+    assert_eq!(finished.exit_code, 0);
 }
