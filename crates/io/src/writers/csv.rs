@@ -55,6 +55,10 @@ pub const CONTACT_COLUMNS: [&str; 16] = [
 /// of the viscosity which delays it.
 pub const COHESION_COLUMNS: [&str; 2] = ["work_damage", "work_viscous"];
 
+/// The columns of every contact that conducts, after its name and a dot: heat per time from the secondary side to the primary, and
+/// that which friction sets free.
+pub const CONDUCTION_COLUMNS: [&str; 2] = ["heat", "heat_friction"];
+
 /// The columns of every reference in `history.csv`, after its name and a dot.
 ///
 /// Forces and moments are what contact exerts on the carrier, about the reference; reactions what supports and prescribed
@@ -114,6 +118,24 @@ pub const ENERGY_COLUMNS: [&str; 7] = [
     "energy.algorithmic",
 ];
 
+/// The columns of heat in `history.csv`, of models with steps that find temperatures.
+///
+/// Into bodies by loads, what holds temperatures, rigid surfaces with a temperature, and friction, and what bodies take up: heat per time in
+/// the increment, then heat since the start in transient steps, what bodies take up in steps of all kinds; and what is lost or made in the increment, over the largest of the rates.
+pub const HEAT_COLUMNS: [&str; 11] = [
+    "heat_rate.loads",
+    "heat_rate.supports",
+    "heat_rate.surfaces",
+    "heat_rate.friction",
+    "heat_rate.stored",
+    "heat.loads",
+    "heat.supports",
+    "heat.surfaces",
+    "heat.friction",
+    "heat.stored",
+    "heat.imbalance",
+];
+
 /// The columns of `frequencies.csv`, one row per natural mode.
 ///
 /// `time` is that of the state about which they are; `frequency` in cycles per time and `omega` in radian per time, both below zero
@@ -135,28 +157,43 @@ pub const FREQUENCY_COLUMNS: [&str; 14] = [
     "effective_mass_z",
 ];
 
-/// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references, [`ENERGY_COLUMNS`] and chosen `name.quantity`
-/// columns, in the order given.
-pub fn history_columns(
-    contacts: &[&str],
-    references: &[&str],
-    has_inertia: bool,
-    breaking: &[&str],
-    chosen: &[&str],
-) -> Vec<String> {
-    let of = |names: &[&str], columns: &[&str]| -> Vec<String> {
+/// What a model has columns of in `history.csv`, by names.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct HistoryOf<'a> {
+    /// Contacts.
+    pub contacts: &'a [&'a str],
+    /// References and rigid bodies.
+    pub references: &'a [&'a str],
+    /// Whether anything moves with inertia.
+    pub has_inertia: bool,
+    /// Contacts whose joints may break.
+    pub breaking: &'a [&'a str],
+    /// Whether temperatures are found.
+    pub has_heat: bool,
+    /// Contacts that conduct where temperatures are found.
+    pub conducting: &'a [&'a str],
+}
+
+/// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references, [`ENERGY_COLUMNS`], contacts that break, [`HEAT_COLUMNS`],
+/// contacts that conduct, and chosen `name.quantity` columns, in the order given.
+pub fn history_columns(of: &HistoryOf<'_>, chosen: &[&str]) -> Vec<String> {
+    let each = |names: &[&str], columns: &[&str]| -> Vec<String> {
         names
             .iter()
             .flat_map(|name| columns.iter().map(move |column| format!("{name}.{column}")))
             .collect()
     };
     let mut all: Vec<String> = HISTORY_COLUMNS.iter().map(ToString::to_string).collect();
-    all.extend(of(contacts, &CONTACT_COLUMNS));
-    all.extend(of(references, &reference_columns(has_inertia)));
-    if has_inertia {
+    all.extend(each(of.contacts, &CONTACT_COLUMNS));
+    all.extend(each(of.references, &reference_columns(of.has_inertia)));
+    if of.has_inertia {
         all.extend(ENERGY_COLUMNS.iter().map(ToString::to_string));
     }
-    all.extend(of(breaking, &COHESION_COLUMNS));
+    all.extend(each(of.breaking, &COHESION_COLUMNS));
+    if of.has_heat {
+        all.extend(HEAT_COLUMNS.iter().map(ToString::to_string));
+    }
+    all.extend(each(of.conducting, &CONDUCTION_COLUMNS));
     all.extend(chosen.iter().map(ToString::to_string));
     all
 }
@@ -315,10 +352,11 @@ mod tests {
     fn the_history_has_the_documented_columns() {
         assert_eq!(
             header(&history_columns(
-                &["c"],
-                &["r"],
-                false,
-                &[],
+                &HistoryOf {
+                    contacts: &["c"],
+                    references: &["r"],
+                    ..HistoryOf::default()
+                },
                 &["pull.force_z"]
             )),
             "time,step,increment,iterations,c.force_x,c.force_y,c.force_z,c.moment_x,c.moment_y,c.moment_z,\

@@ -334,6 +334,9 @@ pub struct Summary {
     /// Work of supports and loads.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub work_external: f64,
+    /// Where heat came from and went to; none where no step finds temperatures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<HeatSummary>,
     /// What the audit of all accepted states found.
     #[serde(default)]
     pub audit: AuditSummary,
@@ -350,6 +353,38 @@ pub struct Summary {
     pub inputs: Vec<Input>,
     /// Warnings and errors, in order.
     pub diagnostics: Vec<DiagnosticSummary>,
+}
+
+/// The heat of a [`Summary`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HeatSummary {
+    /// Heat per time in the last increment.
+    pub rate: HeatEntry,
+    /// Heat since the start, in transient steps.
+    pub total: HeatEntry,
+    /// What comes in and is not taken up in the last increment, over the largest of these.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub imbalance: f64,
+}
+
+/// Heat into bodies, or heat per time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HeatEntry {
+    /// Through loads.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub loads: f64,
+    /// From what holds temperatures.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub supports: f64,
+    /// From rigid surfaces that have a temperature.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub surfaces: f64,
+    /// Of friction.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub friction: f64,
+    /// What bodies took up.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub stored: f64,
 }
 
 /// One step of a [`Summary`].
@@ -506,6 +541,12 @@ pub struct ContactSummary {
     /// Of a contact with a gasket, the largest closure so far.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closure_max: Option<f64>,
+    /// Of a contact that conducts, heat per time from the secondary side to the primary.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<f64>,
+    /// Likewise, heat per time that its friction sets free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat_friction: Option<f64>,
     /// What their moments do not balance, over that sum times the size of a facet: the worst of all increments.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub imbalance_moment: f64,

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 use signorini_geometry::mesh::quality::{Quality, quality};
 use signorini_io::readers::vtu::from_grid;
-use signorini_io::writers::json::Summary;
+use signorini_io::writers::json::{AuditEntry, HeatEntry, HeatSummary, Summary};
 
 /// The part of the external work that viscous forces may take.
 const VISCOUS_MOST: f64 = 0.05;
@@ -49,6 +49,7 @@ pub fn section(results: &Results, quality: Option<&Quality>, end: Option<&Frame>
             h2 { "Health" }
             div.columns {
                 @if let Some(summary) = &results.summary { (energy(results, summary)) }
+                @if let Some(heat) = results.summary.as_ref().and_then(|s| s.heat.as_ref()) { (of_heat(results, heat)) }
                 (reactions(results, end))
                 (elements(quality))
             }
@@ -86,6 +87,37 @@ fn energy(results: &Results, summary: &Summary) -> Markup {
                 tr { th { "spent by viscous forces that hold what only contact stops" } (number(viscous, "work_stabilization")) td { (work) } }
                 tr { th { "the same as part of the work" } (derived(part))
                     @if part.abs() < VISCOUS_MOST { td.good { "✓ below 5 %" } } @else { td.bad { "✗ above 5 %: bodies moved freely before contact held them, or nothing holds them" } } }
+            } }
+        }
+    }
+}
+
+/// Heat that came in over time, or per time where nothing was stored.
+fn of_heat(results: &Results, heat: &HeatSummary) -> Markup {
+    let is_total = heat.total != HeatEntry::default();
+    let (of, key, words) = match is_total {
+        true => (&heat.total, "total", "since the start"),
+        false => (&heat.rate, "rate", "per time"),
+    };
+    let unit = if is_total {
+        unit("work", results.units())
+    } else {
+        String::new()
+    };
+    let rows = [
+        ("by loads", of.loads, "loads"),
+        ("from held temperatures", of.supports, "supports"),
+        ("from rigid surfaces", of.surfaces, "surfaces"),
+        ("of friction", of.friction, "friction"),
+        ("taken up by bodies", of.stored, "stored"),
+    ];
+    html! {
+        div {
+            h3 { "Heat " (words) }
+            table { tbody {
+                @for (words, value, name) in rows {
+                    tr { th { (words) } (number(value, &format!("heat/{key}/{name}"))) td { (unit) } }
+                }
             } }
         }
     }
@@ -139,29 +171,39 @@ fn elements(quality: Option<&Quality>) -> Markup {
 fn audit(summary: &Summary) -> Markup {
     let audit = &summary.audit;
     html! {
-        @if !audit.contacts.is_empty() {
+        @if !audit.contacts.is_empty() || audit.heat.is_some() {
             table.wide {
                 caption { "Audit of all accepted states: each check measures a part that should be small" }
                 thead { tr { th { "contact" } th { "check" } th.number { "part" } th.number { "limit" } th.number { "at time" } th.number { "increments above" } th { "nodes" } th { "" } } }
                 tbody {
                     @for (name, checks) in &audit.contacts {
                         @for (check, entry) in checks {
-                            @let key = |rest: &str| format!("audit/contacts/{}/{check}/{rest}", name.replace('/', "~1"));
-                            tr {
-                                td { (name) }
-                                td { (meaning(check)) }
-                                (number(entry.part, &key("part")))
-                                (number(entry.limit, &key("limit")))
-                                (number(entry.time, &key("time")))
-                                (count(entry.increments, &key("increments")))
-                                td { @for label in entry.nodes.iter().take(6) { (node(i64::try_from(*label).unwrap_or(-1))) " " } }
-                                @if entry.passed { td.good { "✓" } } @else { td.bad { "✗ above the limit" } }
-                            }
+                            (checked(name, meaning(check), entry, &format!("audit/contacts/{}/{check}", name.replace('/', "~1"))))
                         }
+                    }
+                    @if let Some(entry) = &audit.heat {
+                        (checked("", "heat that comes in and is not taken up", entry, "audit/heat"))
                     }
                 }
             }
             @if !audit.passed { p.note { "The audit did not pass: do not trust these results before the reason is known." } }
+        }
+    }
+}
+
+/// A row of the audit, whose entry the summary has under this key.
+fn checked(name: &str, words: &str, entry: &AuditEntry, key: &str) -> Markup {
+    let key = |rest: &str| format!("{key}/{rest}");
+    html! {
+        tr {
+            td { (name) }
+            td { (words) }
+            (number(entry.part, &key("part")))
+            (number(entry.limit, &key("limit")))
+            (number(entry.time, &key("time")))
+            (count(entry.increments, &key("increments")))
+            td { @for label in entry.nodes.iter().take(6) { (node(i64::try_from(*label).unwrap_or(-1))) " " } }
+            @if entry.passed { td.good { "✓" } } @else { td.bad { "✗ above the limit" } }
         }
     }
 }

@@ -11,6 +11,7 @@
 //! | `contact_pressure_max` | the largest pressure of these points: its maximum is `pressure_max` of terminal, history and summary |
 //! | `contact_multiplier` | the pressure in the equations, of the multiplier or of the law, never smoothed |
 //! | `contact_multiplier_traction` | the traction in the equations, likewise |
+//! | `contact_heat_flux`, `contact_conductance`, `contact_friction_heat` | of contacts that conduct where temperatures are found: heat per time and area from the secondary side to the primary, the conductance, and the heat of friction per time and area |
 //! | `contact_damage` | the mean damage of the joint, from 0 to 1; only where one may break |
 
 use super::cells::Cells;
@@ -106,15 +107,24 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     vtu::encode(&grid, &Options::default())
 }
 
-/// Fields that only some contacts have: fluids, gaskets, bonds that break, sides that wear. Where others have one, theirs is 0.
+/// Fields that only some contacts have: fluids, gaskets, bonds that break, sides that wear, those that conduct. Where others have one, theirs is 0.
 fn special(frame: &Frame) -> Vec<(&'static str, Vec<f64>)> {
     type OfContact = fn(&ContactFrame) -> &[f64];
-    let all: [(&str, OfContact); 5] = [
+    let all: [(&str, OfContact); 8] = [
         ("contact_wet", |c| &c.wet),
         ("contact_closure", |c| &c.closure),
         ("contact_closure_max", |c| &c.closure_max),
         ("contact_damage", |c| &c.damage),
         ("worn_depth", |c| c.wear.as_ref().map_or(&[], |w| &w.depth)),
+        ("contact_heat_flux", |c| {
+            c.warmth.as_ref().map_or(&[], |of| &of.flux)
+        }),
+        ("contact_conductance", |c| {
+            c.warmth.as_ref().map_or(&[], |of| &of.conductance)
+        }),
+        ("contact_friction_heat", |c| {
+            c.warmth.as_ref().map_or(&[], |of| &of.friction)
+        }),
     ];
     let some = all
         .into_iter()

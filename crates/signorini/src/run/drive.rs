@@ -12,7 +12,9 @@ use super::start::{Start, begin, facts};
 use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
-use super::{Finished, NOT_STARTED, RunOptions, drift, event_of, failure, solution, torn, worn};
+use super::{
+    Finished, NOT_STARTED, RunOptions, drift, event_of, failure, heat, solution, torn, worn,
+};
 use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
@@ -428,6 +430,7 @@ impl Run<'_, '_> {
             expectations,
             work_stabilization: self.recorder.work_stabilization,
             work_external: self.recorder.work_external,
+            heat: self.recorder.heat.as_ref().map(heat::summary),
             time: [
                 ("read", read),
                 ("build", build),

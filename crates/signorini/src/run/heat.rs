@@ -1,10 +1,11 @@
-//! The audit of heat in a run.
+//! Heat in a run: its audit, and the entry of `summary.json`.
 
 use super::audit::{Worst, number};
 use signorini_io::checkpoint::{Archive, ArchiveError};
 use signorini_io::diagnostic::{Diagnostic, codes};
+use signorini_io::writers::json::{HeatEntry, HeatSummary};
 use signorini_mechanics::audit;
-use signorini_mechanics::system::{Frame, Measured};
+use signorini_mechanics::system::{Frame, HeatBalance, HeatFlows, Measured};
 
 /// The name under which its findings are stored, where there are any.
 const STORED: &str = "run/audit.heat";
@@ -93,10 +94,25 @@ impl HeatAudit {
     }
 }
 
+/// The entry of `summary.json`.
+pub(super) fn summary(balance: &HeatBalance) -> HeatSummary {
+    let entry = |flows: HeatFlows| HeatEntry {
+        loads: flows.loads,
+        supports: flows.supports,
+        surfaces: flows.surfaces,
+        friction: flows.friction,
+        stored: flows.stored,
+    };
+    HeatSummary {
+        rate: entry(balance.rate),
+        total: entry(balance.total),
+        imbalance: balance.imbalance(),
+    }
+}
+
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use signorini_mechanics::system::{HeatBalance, HeatFlows};
 
     /// Heat of 10 that comes in, of which this is lost.
     pub fn balance(lost: f64) -> HeatBalance {

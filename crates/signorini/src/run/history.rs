@@ -7,12 +7,11 @@ use signorini_geometry::tensor::Vec3;
 use signorini_io::case::HistorySource;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_io::writers::csv::{
-    COHESION_COLUMNS, CONTACT_COLUMNS, ENERGY_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS,
-    history_columns, reference_columns,
+    COHESION_COLUMNS, CONDUCTION_COLUMNS, CONTACT_COLUMNS, ENERGY_COLUMNS, HEAT_COLUMNS,
+    HISTORY_COLUMNS, HistoryOf, REFERENCE_COLUMNS, history_columns, reference_columns,
 };
-use signorini_mechanics::solve::Step;
 use signorini_mechanics::system::{
-    ContactFrame, Energies, Frame, Heat, Resultant, RigidFrame, Wear,
+    ContactFrame, Energies, Frame, HeatBalance, HeatFlows, Resultant, RigidFrame, Wear,
 };
 
 /// The columns of a run and where their values come from.
@@ -23,6 +22,8 @@ pub struct History {
     references: Vec<RigidId>,
     has_inertia: bool,
     breaking: Vec<String>,
+    has_heat: bool,
+    conducting: Vec<String>,
     chosen: Vec<Chosen>,
 }
 
@@ -35,8 +36,6 @@ enum Chosen {
     Probe(Probe),
     /// Cycles that are behind.
     Cycles,
-    /// Heat that bodies took up since the start.
-    HeatStored,
     /// What is worn off a contact.
     Worn(String, OfWear),
 }
@@ -64,18 +63,23 @@ impl History {
         let has_inertia = has_inertia(model);
         let breaking = breaking(model);
         let torn: Vec<&str> = breaking.iter().map(String::as_str).collect();
-        let standard = history_columns(&contacts, &references, has_inertia, &torn, &[]);
+        let conducting = conducting(model);
+        let warm: Vec<&str> = conducting.iter().map(String::as_str).collect();
+        let of = HistoryOf {
+            contacts: &contacts,
+            references: &references,
+            has_inertia,
+            breaking: &torn,
+            has_heat: has_heat(model),
+            conducting: &warm,
+        };
+        let standard = history_columns(&of, &[]);
         let mut found = Diagnostics::new();
         let mut names = Vec::new();
         let mut chosen = Vec::new();
         if !model.cycles.is_empty() {
             names.push("cycles".to_owned());
             chosen.push(Chosen::Cycles);
-        }
-        let stores = |step: &Step| step.physics.heat == Heat::Transient;
-        if model.steps.iter().any(stores) {
-            names.push("heat_stored".to_owned());
-            chosen.push(Chosen::HeatStored);
         }
         let wearing = model.case.contacts.iter().filter(|c| c.wear.is_some());
         for contact in wearing {
@@ -100,9 +104,11 @@ impl History {
         }
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         Ok(Self {
-            columns: history_columns(&contacts, &references, has_inertia, &torn, &names),
+            columns: history_columns(&of, &names),
             has_inertia,
+            has_heat: of.has_heat,
             breaking,
+            conducting,
             contacts: contacts.iter().map(ToString::to_string).collect(),
             references: model.references.iter().map(|r| r.rigid).collect(),
             chosen,
@@ -149,12 +155,19 @@ impl History {
             let works = of_name.next().map(|c| [c.work_damage, c.work_viscous]);
             values.extend(works.unwrap_or_default());
         }
+        if self.has_heat {
+            values.extend(of_heat(&frame.heat.unwrap_or_default(), frame.heat_stored));
+        }
+        for name in &self.conducting {
+            let of_name = frame.contacts.iter().find(|c| c.name == *name);
+            let warmth = of_name.and_then(|c| c.warmth.as_ref());
+            values.extend(warmth.map_or([0.0; 2], |of| [of.through, of.rubbed]));
+        }
         for one in &self.chosen {
             let value = match one {
                 Chosen::Copy(column) => values.get(*column).copied().unwrap_or(f64::NAN),
                 Chosen::Probe(probe) => probe.value(frame),
                 Chosen::Cycles => frame.cycles,
-                Chosen::HeatStored => frame.heat_stored,
                 Chosen::Worn(name, of) => {
                     let contact = frame.contacts.iter().find(|c| c.name == *name);
                     contact.and_then(|c| c.wear.as_ref()).map_or(0.0, of)
@@ -169,6 +182,20 @@ impl History {
 /// Whether anything moves with inertia.
 fn has_inertia(model: &Model) -> bool {
     model.steps.iter().any(|step| step.scheme.is_some())
+}
+
+/// Whether temperatures are found.
+pub(super) fn has_heat(model: &Model) -> bool {
+    model.steps.iter().any(|step| step.physics.has_heat())
+}
+
+/// The contacts that conduct, or whose friction heats their sides, where temperatures are found.
+fn conducting(model: &Model) -> Vec<String> {
+    let all = model.case.contacts.iter().filter(|contact| {
+        let rubs = contact.friction.is_some() && contact.friction_heat.is_some();
+        has_heat(model) && (rubs || !contact.conductance.is_empty())
+    });
+    all.map(|contact| contact.name.value.clone()).collect()
 }
 
 /// The contacts whose joints may break.
@@ -310,6 +337,22 @@ fn of_energies(e: &Energies) -> [f64; ENERGY_COLUMNS.len()] {
     ]
 }
 
+fn of_heat(heat: &HeatBalance, stored: f64) -> [f64; HEAT_COLUMNS.len()] {
+    let mut values = [0.0; HEAT_COLUMNS.len()];
+    let total = HeatFlows {
+        stored,
+        ..heat.total
+    };
+    let flows = [heat.rate, total].map(|flows| flows.to_array());
+    let all = flows.as_flattened().iter().copied();
+    let all = all.chain([heat.imbalance()]);
+    values
+        .iter_mut()
+        .zip(all)
+        .for_each(|(to, value)| *to = value);
+    values
+}
+
 fn of_reference(r: &RigidFrame) -> [f64; REFERENCE_COLUMNS.len()] {
     let vectors = [
         r.contact.force,
@@ -355,14 +398,14 @@ fn choose(
     match source {
         HistorySource::Contact(name) => {
             let known = contacts(model);
-            match breaking(model).contains(&name.value) {
-                true => copy(
-                    name,
-                    &known,
-                    &[&CONTACT_COLUMNS[..], &COHESION_COLUMNS].concat(),
-                ),
-                false => copy(name, &known, &CONTACT_COLUMNS),
+            let mut columns = CONTACT_COLUMNS.to_vec();
+            if breaking(model).contains(&name.value) {
+                columns.extend(COHESION_COLUMNS);
             }
+            if conducting(model).contains(&name.value) {
+                columns.extend(CONDUCTION_COLUMNS);
+            }
+            copy(name, &known, &columns)
         }
         HistorySource::Reference(name) => {
             let known = names(model.references.iter().map(|r| &r.name).collect());

@@ -5,7 +5,7 @@ use crate::run::element_named;
 use crate::setup::Model;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
-use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Status};
+use signorini_mechanics::system::{ContactFrame, ContactWarmth, Frame, PointSample, Status};
 
 /// A number of a field at a node.
 type Read = fn(&Frame, usize) -> Option<f64>;
@@ -48,14 +48,21 @@ fn contact_status(frame: &Frame, node: usize) -> Option<f64> {
     })
 }
 
-/// Heat per time that a support of the temperature brings in at a node; none while temperatures are given.
+/// Heat per time that what holds the temperature of a node brings in; none while temperatures are given.
 fn reaction_heat(frame: &Frame, node: usize) -> Option<f64> {
-    let field = frame.fields.iter().find(|one| one.name == "temperature");
-    field.map_or(Some(0.0), |one| one.reaction.get(node).copied())
+    let mut fields = frame.fields.iter();
+    let temperature = fields.find(|field| field.name == "temperature");
+    temperature.map_or(Some(0.0), |field| field.reaction.get(node).copied())
 }
 
-/// Every quantity with its name; forces and heat that supports bring in are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 52] = [
+/// A field of the heat across the contact of a node.
+fn warmth(frame: &Frame, node: usize, of: fn(&ContactWarmth) -> &[f64]) -> Option<f64> {
+    let (contact, at) = contact(frame, node)?;
+    of(contact.warmth.as_ref()?).get(at).copied()
+}
+
+/// Every quantity with its name; those of forces and heats are summed over a set, the others averaged.
+const QUANTITIES: [(&str, Read); 56] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
@@ -132,6 +139,16 @@ const QUANTITIES: [(&str, Read); 52] = [
     ("heat_flux.x", |f, n| vector(&f.heat_flux, n, 0)),
     ("heat_flux.y", |f, n| vector(&f.heat_flux, n, 1)),
     ("heat_flux.z", |f, n| vector(&f.heat_flux, n, 2)),
+    ("heat_flux.magnitude", |f, n| {
+        f.heat_flux.get(n).map(|v| v.norm())
+    }),
+    ("contact_heat_flux", |f, n| warmth(f, n, |of| &of.flux)),
+    ("contact_conductance", |f, n| {
+        warmth(f, n, |of| &of.conductance)
+    }),
+    ("contact_friction_heat", |f, n| {
+        warmth(f, n, |of| &of.friction)
+    }),
 ];
 
 /// A number at an integration point.
@@ -359,8 +376,8 @@ fn find(quantity: &str) -> Result<(Read, Statistic), ProbeError> {
     let (name, read) = found.ok_or_else(|| ProbeError::Quantity {
         name: quantity.into(),
     })?;
-    let adds = name.contains("_force.") || *name == "reaction_heat";
-    let statistic = if adds {
+    let adds_up = name.contains("_force.") || *name == "reaction_heat";
+    let statistic = if adds_up {
         Statistic::Sum
     } else {
         Statistic::Mean

@@ -1,4 +1,4 @@
-//! Where heat comes from and goes to, and its audit.
+//! Where heat comes from and goes to: balances, their audit, and the files that have them.
 
 use super::*;
 use signorini::setup::build;
@@ -96,7 +96,7 @@ fn rubbing(base: &str, contact: &str) -> (Boxes, String) {
 }
 
 /// The same in the plane or in space.
-fn rubbing_in(ndim: usize, base: &str, contact: &str) -> (Boxes, String) {
+pub fn rubbing_in(ndim: usize, base: &str, contact: &str) -> (Boxes, String) {
     let mut boxes = Boxes::new(ndim);
     boxes.add("base", [0.0; 3], [3.0, 1.0, 1.0], [6, 1, 2]);
     boxes.add("block", [0.5, 1.0, 0.0], [1.5, 2.0, 1.0], [2, 1, 1]);
@@ -221,6 +221,55 @@ fn files(text: &str, strict: bool) -> (Finished, impl Fn(&str) -> String + use<>
         String::from_utf8_lossy(&bytes).into_owned()
     };
     (finished, text)
+}
+
+#[test]
+fn histories_summaries_fields_and_expectations_have_heat_where_it_is_found_alone() {
+    let (_, text) = rubbing(
+        "material = \"m\"",
+        "method = \"mortar\"\nenforcement = { penalty = 1e5 }",
+    );
+    let asks = "[[output.history]]\nname = \"ask\"\ncontact = \"rub\"\nquantity = [\"heat\", \"heat_friction\"]\n\
+                [[output.history]]\nname = \"top\"\nset = \"block_top\"\nquantity = [\"reaction_heat\", \"heat_flux.y\"]\n\
+                [[output.history]]\nname = \"face\"\nset = \"block_bottom\"\nquantity = [\"contact_heat_flux\", \"contact_conductance\", \"contact_friction_heat\"]\n\
+                [[expect]]\nwhat = \"heat.supports\"\nvalue = 0.0\ntol = { abs = 1e-12 }\n\
+                [[expect]]\nwhat = \"heat.imbalance\"\nvalue = 0.0\ntol = { abs = 1e-6 }\n\
+                [[expect]]\nwhat = \"contact_conductance @ set block_bottom\"\nvalue = 5.0\ntol = { rel = 1e-9 }\n\
+                [[expect]]\nwhat = \"reaction_heat @ set block_top\"\nvalue = 0.0\ntol = { abs = 1e-12 }\n";
+    let (finished, file) = files(&format!("{text}{asks}"), true);
+    assert_eq!(finished.exit_code, 0, "{}", finished.diagnostics.plain());
+    let history = file("history.csv");
+    let head: Vec<&str> = history.lines().next().unwrap().split(',').collect();
+    let last: Vec<&str> = history.lines().last().unwrap().split(',').collect();
+    let value = |name: &str| -> f64 {
+        let at = head.iter().position(|column| *column == name);
+        last[at.unwrap_or_else(|| panic!("no {name} in {head:?}"))]
+            .parse()
+            .unwrap()
+    };
+    assert!(value("heat.stored") > 1.0);
+    assert_eq!(value("rub.heat"), value("ask.heat"));
+    assert!((value("heat_rate.friction") / value("ask.heat_friction") - 1.0).abs() < 1e-12);
+    // the mean of the nodes of a facet of length 1
+    assert!(value("face.contact_friction_heat") > 0.0);
+    let summary = finished.summary;
+    assert_eq!(summary.heat.unwrap().total.stored, value("heat.stored"));
+    assert_eq!(summary.contacts["rub"].heat, Some(value("rub.heat")));
+    assert!(summary.audit.heat.unwrap().passed);
+    for (name, field) in [
+        ("frames/contact_0002.vtu", "contact_heat_flux"),
+        ("frames/volume_0002.vtu", "reaction_heat"),
+        ("frames/volume_0002.vtu", "heat_flux"),
+    ] {
+        assert!(file(name).contains(&format!("Name=\"{field}\"")), "{name}");
+    }
+    // without steps that find temperatures there is none of it
+    let cold = text.replace("kind = \"coupled\"\nthermal = \"transient\"\n", "");
+    let (finished, file) = files(&cold, true);
+    assert_eq!(finished.exit_code, 0, "{}", finished.diagnostics.plain());
+    for name in ["history.csv", "summary.json"] {
+        assert!(!file(name).contains("heat"), "{}", file(name));
+    }
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn histories_have_what_is_stored_and_what_supports_bring_in() {
     let (_, text) = slab(2, 5, "consistent");
     let columns =
         "{ name = \"end\", set = \"slab_left\", quantity = [\"reaction_heat\", \"heat_flux.x\"] }";
-    let expected = "[[expect]]\nwhat = \"heat_stored\"\nvalue = 0.0357\ntol = { rel = 0.03 }\n";
+    let expected = "[[expect]]\nwhat = \"heat.stored\"\nvalue = 0.0357\ntol = { rel = 0.03 }\n";
     let text = format!("{text}[output]\nhistory = [{columns}]\n{expected}");
     let fs: Arc<dyn Fs> = Arc::new(MemoryFs::default());
     let opened = open_text("case.toml".as_ref(), text.into(), &Reading::default()).unwrap();
@@ -80,7 +80,7 @@ fn histories_have_what_is_stored_and_what_supports_bring_in() {
         .lines()
         .map(|line| line.split(',').collect::<Vec<_>>());
     let names = lines.next().unwrap();
-    let at = ["heat_stored", "end.reaction_heat", "end.heat_flux.x"]
+    let at = ["heat.stored", "end.reaction_heat", "end.heat_flux.x"]
         .map(|name| names.iter().position(|other| *other == name).unwrap());
     let mut came = 0.0;
     for line in lines {

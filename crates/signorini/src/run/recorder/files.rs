@@ -234,6 +234,7 @@ impl Opened {
             idle: self.idle,
             work_stabilization: 0.0,
             work_external: 0.0,
+            heat: None,
             audit: self.audit,
             error: None,
             stop: None,

@@ -41,7 +41,7 @@ use signorini_io::writers::pvd::Pvd;
 use signorini_mechanics::solve::{
     Event as Happening, Flow, IncrementRecord, Observer, Step, Stepper,
 };
-use signorini_mechanics::system::{Dof, Frame, Layout, System};
+use signorini_mechanics::system::{Dof, Frame, HeatBalance, Layout, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -137,6 +137,8 @@ pub struct Recorder<'l> {
     pub work_stabilization: f64,
     /// Work of supports and loads so far.
     pub work_external: f64,
+    /// Where heat came from and went to, where steps find temperatures.
+    pub heat: Option<HeatBalance>,
     /// What the audits found so far.
     pub audit: Audit,
     /// The first failure of the disk; nothing is written after it.

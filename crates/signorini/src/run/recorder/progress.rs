@@ -236,6 +236,7 @@ impl Recorder<'_> {
         self.worn = wears.filter_map(deep).collect();
         self.work_stabilization = frame.work_stabilization;
         self.work_external = frame.work_external;
+        self.heat = frame.heat;
         self.audit.look(frame);
         let event = Event::Increment {
             step: name,
@@ -348,10 +349,16 @@ fn add(sum: &mut ContactSummary, one: &ContactSummary) {
     sum.area_open += one.area_open;
     sum.area_stick += one.area_stick;
     sum.area_slip += one.area_slip;
-    sum.area_wet = match (sum.area_wet, one.area_wet) {
-        (Some(a), Some(b)) => Some(a + b),
-        (a, b) => a.or(b),
-    };
+    for (sum, one) in [
+        (&mut sum.area_wet, one.area_wet),
+        (&mut sum.heat, one.heat),
+        (&mut sum.heat_friction, one.heat_friction),
+    ] {
+        *sum = match (*sum, one) {
+            (Some(a), Some(b)) => Some(a + b),
+            (a, b) => a.or(b),
+        };
+    }
     sum.closure_max = sum
         .closure_max
         .into_iter()
@@ -381,6 +388,8 @@ fn summary(contact: &ContactFrame, before: Option<&ContactSummary>) -> ContactSu
         area_slip: contact.area_slip,
         area_wet: contact.fluid.map(|fluid| fluid.area),
         closure_max: contact.closure_max.iter().copied().reduce(f64::max),
+        heat: contact.warmth.as_ref().map(|warmth| warmth.through),
+        heat_friction: contact.warmth.as_ref().map(|warmth| warmth.rubbed),
         imbalance_force: before.map_or(forces, |b| forces.max(b.imbalance_force)),
         imbalance_moment: before.map_or(moments, |b| moments.max(b.imbalance_moment)),
     }
