@@ -516,6 +516,20 @@ codes! {
     ["a coarse `force_tol` of Newton's method", "one part of the model takes up far less heat than another, and is solved for coarsely"]
     ["a smaller tolerance:  newton = { force_tol = 1e-12 }  in [solver]", "smaller increments", "make it an error:  --strict"]
 
+    OVERSHOOT "S0438" Input "increments in which temperatures overshoot"
+    "A body stores heat between its nodes, as the shape functions of its elements have it. Where a temperature jumps, as at a support \
+     that a transient step heats at once, the nodes next to it first go the other way, unless heat gets across an element in an \
+     increment: k Δt/(ρ c h²) has to be 1/6 at least."
+    ["short increments at the start of a step, with coarse elements where heat comes in"]
+    ["store heat at nodes, where temperatures never overshoot:  capacity = \"lumped\"  of the body", "longer increments, or smaller elements",
+     "silence with  allow = [\"S0438\"]  where temperatures come in gradually"]
+
+    ODD_FOURIER "S0439" Input "heat that goes unusually far in an increment"
+    "In an increment, heat goes about √(k Δt/(ρ c)) far. That is less than a thousandth of the smallest element of a body, or \
+     more than a thousand of them: mixed units are more often the reason than such a model."
+    ["a density, a specific heat or a conductivity in other units than lengths and times are", "a duration in another unit"]
+    ["units that go together: docs/howto/units.md", "where it is meant so, nothing"]
+
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
      before it are saved."

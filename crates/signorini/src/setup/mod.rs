@@ -11,6 +11,7 @@ mod constraints;
 mod contact;
 mod cuts;
 mod cycles;
+mod fourier;
 pub(crate) mod gaps;
 pub(crate) mod general;
 mod heat;
@@ -252,6 +253,8 @@ fn build_of(
     found.append(contact::sharing(&case, &model.contacts, &names));
     found.append(gaps::findings(&case, &mesh, &contacts));
     found.append(process_zones::findings(&case, &contacts));
+    let of_steps = (&model.system.layout, &model.steps[..]);
+    found.append(fourier::findings(&case, (&names, &mesh), of_steps));
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);
     choices::choose(&mut case, &carriers, &model.contacts, &model.locking);

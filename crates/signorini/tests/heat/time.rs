@@ -227,3 +227,47 @@ fn no_trouble_makes_bodies_store_less_than_they_take_in() {
     }
     assert!(nframe > 0);
 }
+
+/// What building a case finds, and the lowest temperature of its run.
+fn found_and_lowest(text: &str) -> (String, f64) {
+    let found = common::model("heat", text, &[]).warnings.plain();
+    let (run, _) = solved(text);
+    let frames = run.frames.iter();
+    let all = frames.flat_map(|frame| frame.temperature.iter().copied());
+    (found, all.fold(0.0, f64::min))
+}
+
+#[test]
+fn increments_in_which_temperatures_overshoot_are_warned_of_and_no_others() {
+    // an edge of 1/40, and κ = 1: 1.04e-4 is the least
+    for ndim in [2, 3] {
+        for (increments, capacity, overshoots) in [
+            (20, "consistent", true),
+            (11, "consistent", true),
+            (9, "consistent", false),
+            (20, "lumped", false),
+        ] {
+            let (_, text) = slab(ndim, increments, capacity);
+            let text = text.replace("duration = 0.1", "duration = 1e-3");
+            let (found, lowest) = found_and_lowest(&text);
+            let what = format!("{ndim} {increments} {capacity}: {lowest:e} {found}");
+            assert_eq!(found.contains("[S0438]"), overshoots, "{what}");
+            assert_eq!(lowest < -1e-9, overshoots, "{what}");
+            if overshoots {
+                for says in ["body \"slab\"", "1.04e-4", "capacity = \"lumped\"", "0.025"] {
+                    assert!(found.contains(says), "{says}: {what}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn heat_that_goes_a_thousandth_of_an_element_far_hints_at_units() {
+    for (density, odd) in [("2.0", false), ("2e9", true), ("2e-11", true)] {
+        let (_, text) = slab(2, 20, "lumped");
+        let text = text.replace("density = 2.0", &format!("density = {density}"));
+        let found = common::model("heat", &text, &[]).warnings.plain();
+        assert_eq!(found.contains("note[S0439]"), odd, "{density}: {found}");
+    }
+}

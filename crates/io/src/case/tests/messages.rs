@@ -81,7 +81,7 @@ fn every_code_about_text_is_provoked() {
         let of_runs = [
             "S0411", "S0412", "S0413", "S0414", "S0415", "S0416", "S0418", "S0419", "S0421",
             "S0422", "S0423", "S0424", "S0425", "S0426", "S0427", "S0428", "S0429", "S0430",
-            "S0431", "S0432", "S0436", "S0437",
+            "S0431", "S0432", "S0436", "S0437", "S0438", "S0439",
         ];
         let elsewhere =
             ["S0121", "S0122", "S0404", "S0405"].contains(&code.id) || of_runs.contains(&code.id);
