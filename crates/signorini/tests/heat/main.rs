@@ -15,6 +15,7 @@ mod common;
 mod contact;
 mod decks;
 mod pairs;
+mod repeat;
 mod rods;
 mod rubbing;
 mod tangent;
