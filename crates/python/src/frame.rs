@@ -319,6 +319,15 @@ impl ContactFrame {
     }
 }
 
+/// A field of the heat across a contact; empty where no step finds temperatures.
+fn warmth(
+    contact: &system::ContactFrame,
+    of: fn(&system::ContactWarmth) -> &Vec<f64>,
+) -> &Vec<f64> {
+    static NONE: Vec<f64> = Vec::new();
+    contact.warmth.as_ref().map_or(&NONE, of)
+}
+
 /// Getters of arrays over the nodes, and of numbers and vectors of the whole contact.
 macro_rules! getters {
     (vectors { $($vectors:ident: $of_vectors:expr, $doc1:literal;)* }
@@ -410,6 +419,9 @@ getters! {
         multiplier: |c| &c.multiplier, "Pressures in the equations, never smoothed (stress), (n,).";
         area: |c| &c.area, "Tributary areas (area), (n,).";
         damage: |c| &c.damage, "Damage of a joint that may break, from 0 to 1, (n,); of others empty.";
+        heat_flux: |c| warmth(c, |of| &of.flux), "Heat per time and area to the primary side, without that of friction, (n,); empty where no step finds temperatures.";
+        conductance: |c| warmth(c, |of| &of.conductance), "Heat per time, area and temperature, (n,); likewise.";
+        friction_heat: |c| warmth(c, |of| &of.friction), "Heat of friction per time and area, (n,); likewise.";
     }
     vector {
         force: |c| c.secondary.force, "What the primary side exerts on the secondary side (force), (3,).";
@@ -427,6 +439,8 @@ getters! {
         area_slip: |c| c.area_slip, "Slipping area.";
         work_friction: |c| c.work_friction, "Work spent in friction since the start (energy).";
         work_damage: |c| c.work_damage, "Energy that damage has taken since the start.";
+        heat: |c| c.warmth.as_ref().map_or(0.0, |of| of.through), "Heat per time to the primary side.";
+        heat_friction: |c| c.warmth.as_ref().map_or(0.0, |of| of.rubbed), "Heat per time that friction sets free.";
         work_viscous: |c| c.work_viscous, "Work spent since the start by the viscosity that delays damage.";
     }
 }

@@ -222,6 +222,13 @@ ARRAYS = {
     "area": "contact_area",
     "nodal_force": "contact_force",
 }
+# what only some contacts have
+SPECIAL = {
+    "damage": "contact_damage",
+    "heat_flux": "contact_heat_flux",
+    "conductance": "contact_conductance",
+    "friction_heat": "contact_friction_heat",
+}
 NUMBERS = {"peak": "pressure_max"} | {
     name: name for name in ("gap_min", "slip_max", "area_open", "area_stick", "area_slip", "work_friction")
 }
@@ -247,9 +254,9 @@ class _FileContact:
         return 0.0 if self._row is None else float(self._reader.history[f"{self.name}.{column}"][self._row])
 
     def __getattr__(self, name: str) -> Any:
-        if name == "damage":
-            return self._array("contact_damage") if "contact_damage" in self._vtu["point_data"] else np.zeros(0)
-        if name in ("work_damage", "work_viscous"):
+        if name in SPECIAL:
+            return self._array(SPECIAL[name]) if SPECIAL[name] in self._vtu["point_data"] else np.zeros(0)
+        if name in ("work_damage", "work_viscous", "heat", "heat_friction"):
             return self._number(name) if f"{self.name}.{name}" in self._reader.history else 0.0
         if name in ARRAYS:
             return self._array(ARRAYS[name])

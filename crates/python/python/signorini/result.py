@@ -112,6 +112,21 @@ class ContactFrame:
         return self._source.damage
 
     @property
+    def heat_flux(self) -> Floats:
+        """Heat per time and area to the primary side, without that of friction `(n,)`; empty where no step finds temperatures."""
+        return self._source.heat_flux
+
+    @property
+    def conductance(self) -> Floats:
+        """Heat per time, area and temperature across the contact `(n,)`; empty where no step finds temperatures."""
+        return self._source.conductance
+
+    @property
+    def friction_heat(self) -> Floats:
+        """Heat of friction per time and area `(n,)`; empty where no step finds temperatures."""
+        return self._source.friction_heat
+
+    @property
     def nodal_force(self) -> Floats:
         """Contact forces at the nodes `(n, 3)` (force); their sum is `force`."""
         return self._source.nodal_force
@@ -180,6 +195,16 @@ class ContactFrame:
     def work_viscous(self) -> float:
         """Work spent since the start by the viscosity that delays damage (energy)."""
         return float(self._source.work_viscous)
+
+    @property
+    def heat(self) -> float:
+        """Heat per time from the secondary side to the primary, without that of friction."""
+        return float(self._source.heat)
+
+    @property
+    def heat_friction(self) -> float:
+        """Heat per time that friction sets free."""
+        return float(self._source.heat_friction)
 
     @property
     def closed(self) -> NDArray[np.bool_]:
