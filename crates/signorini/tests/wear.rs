@@ -394,7 +394,7 @@ fn scar(increments: usize) -> (Vec<[f64; 2]>, f64) {
         }
     }
     for j in 0..ny - 1 {
-        for i in 0..nx - 1 {
+        for (i, &x) in across.iter().enumerate().take(nx - 1) {
             let (element, a) = (i + (nx - 1) * j + 1, i + nx * j + 1);
             write!(
                 elements,
@@ -404,7 +404,7 @@ fn scar(increments: usize) -> (Vec<[f64; 2]>, f64) {
                 a + 1
             )
             .unwrap();
-            if j == 0 && across[i] < 1.0 {
+            if j == 0 && x < 1.0 {
                 write!(faces, "[{element}, \"S3\"], ").unwrap();
             }
         }

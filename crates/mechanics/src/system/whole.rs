@@ -330,7 +330,9 @@ fn heat_samples_of(
 ) -> Result<Samples<Vec3>, TermError> {
     let mut samples = Samples::default();
     if !cells.is_empty() {
-        let conducting = terms.iter().filter_map(|term| term.capabilities().sampled_heat);
+        let conducting = terms
+            .iter()
+            .filter_map(|term| term.capabilities().sampled_heat);
         for term in conducting {
             term.sample_heat(state, cells, &mut samples)?;
         }
