@@ -521,7 +521,7 @@ codes! {
      that a transient step heats at once, the nodes next to it first go the other way, unless heat gets across an element in an \
      increment: k Δt/(ρ c h²) has to be 1/6 at least."
     ["short increments at the start of a step, with coarse elements where heat comes in"]
-    ["store heat at nodes, where temperatures never overshoot:  capacity = \"lumped\"  of the body", "longer increments, or smaller elements",
+    ["store heat at nodes, where temperatures hardly overshoot:  capacity = \"lumped\"  of the body", "longer increments, or smaller elements",
      "silence with  allow = [\"S0438\"]  where temperatures come in gradually"]
 
     ODD_FOURIER "S0439" Input "heat that goes unusually far in an increment"

@@ -20,9 +20,10 @@
 //! Limits: inertia plays no part. A stage takes no time, in which no heat could be stored: transient steps take no jumps. A jump that never comes to rest (a body that falls, a limit load) fails as before.
 
 use super::event::{Event, Observer};
+use super::step::Step;
 use super::stepping::{Accepted, Stepper};
 use crate::solve::newton::Goal;
-use crate::system::{Archive, Dof, System, TermError, Viscous};
+use crate::system::{Archive, Dof, Heat, System, TermError, Viscous};
 
 /// Viscosity below which the equilibrium is looked for without it.
 const FAINT: f64 = 1e-6;
@@ -42,12 +43,37 @@ const MAX_ITERATIONS: usize = 8;
 const EASY: usize = 4;
 
 impl Stepper {
+    /// Goes to the step time `end` where sizes of the increment have failed: in parts, and if that does not get there, in
+    /// slow motion, where bodies store no heat; `None` where neither does.
+    pub(super) fn help(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        end: f64,
+        attempt: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Accepted>, TermError> {
+        if !has_brake(system) {
+            return Ok(None);
+        }
+        if let Some(accepted) = self.follow(system, step, end, attempt, observer)? {
+            return Ok(Some(accepted));
+        }
+        // stages take no time, in which nothing stores heat
+        if step.physics.heat == Heat::Transient {
+            return Ok(None);
+        }
+        let mut targets = Vec::new();
+        self.targets(step, end, &mut targets);
+        self.stabilize(system, end, &targets, attempt, observer)
+    }
+
     /// Goes to the step time `end` in slow motion; `None`, and everything as before, where that does not lead to an
     /// equilibrium.
     ///
     /// # Errors
     /// A term that cannot go back.
-    pub(super) fn stabilize(
+    fn stabilize(
         &mut self,
         system: &mut System,
         end: f64,
@@ -143,7 +169,7 @@ pub(super) fn work_of(system: &System) -> f64 {
 }
 
 /// Whether a term has viscous forces.
-pub(super) fn has_brake(system: &mut System) -> bool {
+fn has_brake(system: &mut System) -> bool {
     damp(system, 0.0, &[])
 }
 

@@ -10,7 +10,7 @@ use super::step::{Cycle, Increments, Motion, Sizes, Step, Turns};
 use super::work::ExternalWork;
 use crate::explicit::{Explicit, Kept};
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, Heat, HeatBalance, Order, State, System, TermError,
+    Aid, Archive, ArchiveError, Dof, Frame, HeatBalance, Order, State, System, TermError,
     interpolate,
 };
 use signorini_linear::{LinearKind, choose};
@@ -560,31 +560,6 @@ impl Stepper {
             frame: &frame,
         };
         Ok(observer.notice(&event))
-    }
-
-    /// Goes to the step time `end` where sizes of the increment have failed: in parts, and if that does not get there, in
-    /// slow motion, where bodies store no heat; `None` where neither does.
-    fn help(
-        &mut self,
-        system: &mut System,
-        step: &Step,
-        end: f64,
-        attempt: usize,
-        observer: &mut dyn Observer,
-    ) -> Result<Option<Accepted>, TermError> {
-        if !stabilization::has_brake(system) {
-            return Ok(None);
-        }
-        if let Some(accepted) = self.follow(system, step, end, attempt, observer)? {
-            return Ok(Some(accepted));
-        }
-        // stages take no time, in which nothing stores heat
-        if step.physics.heat == Heat::Transient {
-            return Ok(None);
-        }
-        let mut targets = Vec::new();
-        self.targets(step, end, &mut targets);
-        self.stabilize(system, end, &targets, attempt, observer)
     }
 
     /// Tries one increment up to the step time `end`.

@@ -93,7 +93,7 @@ class Body(Table):
         default="linear",
     )
     capacity: Key[Literal["consistent", "lumped"], Literal["consistent", "lumped"]] = Key(
-        "Where it stores heat: between the nodes of elements, or at these, which never overshoots",
+        "Where it stores heat: between the nodes of elements, or at these, which hardly overshoots",
         "`\"consistent\"`, `\"lumped\"`",
         default="consistent",
     )

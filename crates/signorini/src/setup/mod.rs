@@ -236,17 +236,13 @@ fn build_of(
     let revolves = |cell: &CellId| names.plane(*cell) == Idealisation::Axisymmetric;
     let revolving = solids.filter(revolves).collect();
     found.append(bodies::stiff_elements(&case, &names, &mesh));
-    if let Some(one) = left_out {
-        found.push(one);
-    }
+    left_out.into_iter().for_each(|one| found.push(one));
     let contacts = info::contacts(&case, &model.contacts);
     let stabilized = case.solver.stabilize == Stabilize::Auto;
     let sets = names.node_sets();
     let unheld = &model.held_by_contact;
     let held = held::by_contact(unheld, &contacts, (&case, &mesh), &sets, stabilized);
-    if let Some(one) = held {
-        found.push(one);
-    }
+    held.into_iter().for_each(|one| found.push(one));
     if found.has_errors() {
         return Err(found);
     }

@@ -229,7 +229,7 @@ pub(super) static BODY: Table = Table {
         key(
             "capacity",
             Shape::Choice(&[word("consistent"), word("lumped")]),
-            "where it stores heat: between the nodes of elements, or at these, which never overshoots",
+            "where it stores heat: between the nodes of elements, or at these, which hardly overshoots",
         )
         .or(Default::Text("consistent")),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),

@@ -407,13 +407,7 @@ impl Interface {
                     report.force_normal += pushed.force * push;
                     report.moment_normal += pushed.moment * push;
                     report.force_shear -= traction.tangential * measure;
-                    reported.status = match traction.state {
-                        _ if on_row.pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
-                        Contact::Open => Status::Open,
-                        Contact::Stick if self.parts.bond.is_some() && damage < 1.0 => Status::Tied,
-                        Contact::Stick => Status::Stick,
-                        Contact::Slip => Status::Slip,
-                    };
+                    reported.status = self.status(traction.state, on_row.pressure, damage);
                 }
                 gap_min = Some(gap_min.map_or(gap, |least| least.min(gap)));
                 reported.found = Some(Found {
@@ -454,6 +448,18 @@ impl Interface {
             report.center = centre.0 / centre.1;
         }
         Ok((all, on_rows))
+    }
+
+    /// What a row that acts does, under a pressure.
+    fn status(&self, state: Contact, pressure: f64, damage: f64) -> Status {
+        let bond = self.parts.bond.is_some();
+        match state {
+            _ if pressure <= 0.0 && !bond => Status::Open,
+            Contact::Open => Status::Open,
+            Contact::Stick if bond && damage < 1.0 => Status::Tied,
+            Contact::Stick => Status::Stick,
+            Contact::Slip => Status::Slip,
+        }
     }
 
     /// Adds a point that touches to the sums over its face.
