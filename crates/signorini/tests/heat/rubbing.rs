@@ -222,7 +222,8 @@ fn growth(method: &str, velocity: f64, [nx, ny, increments]: [usize; 3], dt: f64
         let nodes = boxes.nodes("strip_bottom").iter();
         let of = |&node: &usize| {
             let x = boxes.place(node)[0];
-            let share = if x < 1e-9 || x > 0.5 - 1e-9 { 0.5 } else { 1.0 };
+            let is_inside = (1e-9..=0.5 - 1e-9).contains(&x);
+            let share = if is_inside { 1.0 } else { 0.5 };
             share * (m * x).cos() * frame.temperature[node - 1]
         };
         nodes.map(of).sum::<f64>()
