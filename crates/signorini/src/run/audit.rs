@@ -2,6 +2,7 @@
 
 use super::heat::HeatAudit;
 use super::remedies::MOTION_INSTEAD;
+use super::worst::{Worst, number};
 use crate::setup::{LISTED, Model, and_so_on, first_step, hold_it};
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_io::case::{Case, Enforcement};
@@ -12,18 +13,6 @@ use signorini_mechanics::audit::{stopped, viscous};
 use signorini_mechanics::model::Unheld;
 use signorini_mechanics::system::{Check, Frame, Measured};
 use std::collections::BTreeMap;
-
-/// The results of one check of a contact.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Worst {
-    /// The worst of all increments.
-    pub measured: Measured,
-    /// When.
-    pub time: f64,
-    /// Increments in which it did not pass, and the time of the first.
-    pub failed: u64,
-    pub first: f64,
-}
 
 /// What the audits found so far.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -396,35 +385,6 @@ impl Worst {
         }
     }
 
-    /// In which of so many increments it failed.
-    pub fn times(&self, increments: u64) -> String {
-        match self.failed {
-            1 => format!(
-                "in 1 of {increments} increments, at time {}",
-                number(self.time)
-            ),
-            n => format!(
-                "in {n} of {increments} increments, first at time {}, worst at {}",
-                number(self.first),
-                number(self.time)
-            ),
-        }
-    }
-
-    pub fn take(&mut self, measured: &Measured, time: f64) {
-        if !measured.passes() {
-            if self.failed == 0 {
-                self.first = time;
-            }
-            self.failed += 1;
-        }
-        let worse = measured.part > self.measured.part || measured.part.is_nan();
-        if worse || self.measured.limit == 0.0 {
-            self.measured = measured.clone();
-            self.time = time;
-        }
-    }
-
     fn of(numbers: &[f64; STORED], nodes: &[u64; NODES]) -> Self {
         let [part, limit, worst, allowed, pressure, time, first, failed] = *numbers;
         let nodes = nodes.iter().filter_map(|n| NodeId::try_from(*n).ok());
@@ -570,24 +530,6 @@ fn help(name: &str, check: Check, model: &Model) -> Vec<String> {
                 .into(),
         ],
     }
-}
-
-/// Four digits, without zeros at the end.
-pub(super) fn number(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (1e-3..1e5).contains(&size) {
-        let digits = if size > 0.0 {
-            3 - size.log10().floor() as i32
-        } else {
-            0
-        };
-        let text = format!("{value:.*}", digits.max(0) as usize);
-        if text.contains('.') {
-            return text.trim_end_matches('0').trim_end_matches('.').to_owned();
-        }
-        return text;
-    }
-    format!("{value:.3e}")
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Heat in a run: its audit, and the entry of `summary.json`.
 
-use super::audit::{Worst, number};
+use super::worst::{Worst, number};
 use signorini_io::checkpoint::{Archive, ArchiveError};
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_io::writers::json::{HeatEntry, HeatSummary};

@@ -49,6 +49,7 @@ mod torn;
 mod tree;
 mod volume;
 mod worn;
+mod worst;
 
 pub use by_points::solve;
 pub use drive::run;

@@ -66,12 +66,11 @@ use lents::Lents;
 use memory::{DynamicGaps, Ends, History};
 use near::Near;
 use reversals::Reversals;
-use row_heat::ThermalScratch;
+use row_heat::{ThermalScratch, Warmth};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
-use warmth::Warmth;
 use wet::Wetting;
 
 /// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.

@@ -4,7 +4,22 @@ use super::conducting::FrictionHeat;
 use crate::contact::kernel::Slopes;
 use crate::contact::law::Conducted;
 use crate::contact::row::Row;
-use crate::system::Dof;
+use crate::system::{Dof, SizedFlows};
+
+/// Heat per time in the last accepted increment.
+#[derive(Debug, Default)]
+pub(super) struct Warmth {
+    pub flows: SizedFlows,
+    /// What friction set free, η 𝒟 of each row; empty where nothing became heat.
+    pub rubbed: Vec<f64>,
+}
+
+impl Warmth {
+    /// η 𝒟 of a row.
+    pub fn rubbed(&self, row: usize) -> f64 {
+        self.rubbed.get(row).copied().unwrap_or_default()
+    }
+}
 
 /// A participant of a row.
 #[derive(Clone, Copy, Debug)]

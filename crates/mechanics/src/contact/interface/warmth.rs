@@ -1,22 +1,8 @@
 //! The heat across an interface in the last accepted increment: what audits and results know of it.
 
+use super::row_heat::Warmth;
 use super::{Archive, ArchiveError, Interface, Order, Scratch, State, TermError};
 use crate::system::{Conducting, HeatFlows, NO_DOF, SizedFlows};
-
-/// Heat per time in the last accepted increment.
-#[derive(Debug, Default)]
-pub(super) struct Warmth {
-    flows: SizedFlows,
-    /// What friction set free, η 𝒟 of each row; empty where nothing became heat.
-    rubbed: Vec<f64>,
-}
-
-impl Warmth {
-    /// η 𝒟 of a row.
-    pub fn rubbed(&self, row: usize) -> f64 {
-        self.rubbed.get(row).copied().unwrap_or_default()
-    }
-}
 
 impl Interface {
     /// Takes note of the heat of all rows at a state that is being accepted, before what they remember moves on: sums over rows, of

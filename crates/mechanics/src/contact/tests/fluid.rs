@@ -50,7 +50,8 @@ fn wet(scene: &Scene) -> [usize; 2] {
     [wet, report.wet.len()]
 }
 
-fn walk(kind: Kind) {
+/// All methods and laws; whether some rows stay dry.
+fn walk(kind: Kind) -> bool {
     let (mut some, mut worst) = (false, Worst::default());
     for method in methods(kind) {
         for law in 0..laws().len() {
@@ -78,22 +79,26 @@ fn walk(kind: Kind) {
             }
         }
     }
-    assert!(some && worst.tried > 0, "{kind:?}: {}", worst.tried);
+    assert!(worst.tried > 0, "{kind:?}");
+    some
+}
+
+/// The same with several kinds: of some of them, rows stay dry.
+fn walk_all(kinds: &[&'static str]) {
+    let dry = kinds.iter().map(|kind| walk(Kind::Elements(kind)));
+    let dry: Vec<bool> = dry.collect();
+    assert!(dry.contains(&true), "everything is wet");
 }
 
 #[test]
 fn tangents_match_differences_and_loads_balance_on_curves() {
-    for kind in &KINDS[..2] {
-        walk(Kind::Elements(kind));
-    }
+    walk_all(&KINDS[..2]);
 }
 
 #[test]
 #[ignore = "takes its time without optimization"]
 fn tangents_match_differences_and_loads_balance_on_surfaces() {
-    for kind in &KINDS[2..] {
-        walk(Kind::Elements(kind));
-    }
+    walk_all(&KINDS[2..]);
 }
 
 #[test]
