@@ -435,9 +435,9 @@ impl Grid {
         if self.hierarchy.is_none() {
             self.factorize(kept, values, Why::NotPositive, notes)?;
         }
-        let alone = !self.deforms() || self.factor.is_there();
+        let needs_none = !self.deforms() || self.factor.is_there();
         let why = match &mut self.hierarchy {
-            None if alone => match self.block.update(kept, values) {
+            None if needs_none => match self.block.update(kept, values) {
                 Ok(()) => return Ok(true),
                 Err(LinearError::Singular { .. }) => Why::Interface,
                 Err(other) => return Err(other),

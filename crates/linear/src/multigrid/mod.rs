@@ -18,8 +18,8 @@
 //! smoother is an incomplete factor by blocks of nodes. The hierarchy outlives patterns: it is rebuilt only where the
 //! stiffness of the bodies, or their constraints, change. All of it is in single precision, and what only smooths, or leads from level to level, in whole numbers of 16 bits with a unit for each row: iterations stay the same.
 //!
-//! Other fields of the nodes have a hierarchy for each component ([`nodal`]), and no part in the block unless constraints
-//! act on them. Iterations are in units in which all fields are as large.
+//! Other fields of the nodes have a hierarchy for each component ([`nodal`]), also where no body deforms, and no part in the block
+//! unless constraints act on them. Iterations are in units in which all fields are as large.
 //!
 //! Multipliers are in the block with all they act on. Where operator and block are positive definite, iterations are by
 //! conjugate gradients; elsewhere by minimal residuals, from a start that leaves nothing at the equations of the block,

@@ -1,7 +1,8 @@
 //! Fields of the nodes besides that of the bodies: a hierarchy for each component.
 //!
 //! A level has one unknown at each node, and aggregates move by constants. What couples components, or fields, is left to
-//! the iteration; so is what couples them with the displacements of the bodies.
+//! the iteration. So is what couples them with the displacements of the bodies where the operator is symmetric; elsewhere a cycle
+//! goes through fields first, and bodies take what these leave.
 
 use super::aggregation::MODES;
 use super::blocks::Blocks;
@@ -120,9 +121,7 @@ impl Component {
             }
         }
     }
-}
 
-impl Component {
     /// Takes its part of a vector over.
     pub fn copy(&self, from: &[f64], to: &mut [f64]) {
         for &e in &self.equation {
