@@ -11,31 +11,25 @@ pub struct ContactHeat {
     pub friction: Option<FrictionHeat>,
     /// The temperature of a primary side that has no nodes; none: it neither gives nor takes heat.
     pub primary: Option<f64>,
-    /// The part of the conductance that counts: a half in each of two passes. The heat of friction is that of the work of each.
+    /// The part of the conductance that counts: a half in each of two passes.
     pub share: f64,
 }
 
 /// What becomes of the heat of friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionHeat {
-    /// η: the part of its work that becomes heat, over the share of the conductance that counts.
+    /// η: the part of its work that becomes heat.
     pub fraction: f64,
     /// f: the part of that which the secondary side takes.
     pub to_secondary: f64,
 }
 
 impl ContactHeat {
-    /// The same in each of so many passes.
+    /// The same in each of several passes, which share the conductance; each has the friction of its own.
     #[must_use]
     pub fn in_passes(self, count: u32) -> Self {
-        let count = f64::from(count);
-        let friction = self.friction.map(|of| FrictionHeat {
-            fraction: of.fraction * count,
-            ..of
-        });
         Self {
-            friction,
-            share: self.share / count,
+            share: self.share / f64::from(count),
             ..self
         }
     }

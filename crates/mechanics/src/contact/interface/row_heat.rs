@@ -56,23 +56,22 @@ pub(super) struct ThermalScratch {
 
 /// What goes across a row, over its measure.
 pub(super) struct Crossing {
+    /// Of it, the part that counts.
     pub conducted: Conducted,
     /// [θ] and θ_m.
     pub jump_and_mean: [f64; 2],
-    /// The part of it that counts, and the measure times that.
-    pub share: f64,
-    pub weight: f64,
+    pub measure: f64,
     /// 𝒟 and what becomes of it.
     pub power: f64,
     pub friction: FrictionHeat,
 }
 
 impl Crossing {
-    /// q, h and η 𝒟 of its share.
+    /// q, h and η 𝒟.
     pub fn per_area(&self) -> [f64; 3] {
         let [jump, _] = self.jump_and_mean;
         let h = self.conducted.h;
-        [h * jump, h, self.friction.fraction * self.power].map(|value| self.share * value)
+        [h * jump, h, self.friction.fraction * self.power]
     }
 }
 

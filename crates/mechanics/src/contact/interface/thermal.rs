@@ -76,22 +76,21 @@ impl Interface {
         };
         let Crossing {
             conducted,
-            share,
-            weight,
+            jump_and_mean,
+            measure,
             power,
             friction,
-            ..
         } = crossing;
-        let [jump, _] = crossing.jump_and_mean;
+        let [jump, _] = jump_and_mean;
         if conducted == Conducted::default() && power == 0.0 {
             return Ok(());
         }
         let s = &mut scratch.thermal;
-        s.add_residual(&conducted, jump, (weight, power), friction);
+        s.add_residual(&conducted, jump, (measure, power), friction);
         s.stiffness.clear();
         s.coupling.clear();
         if order == Order::Tangent {
-            s.add_stiffness(&conducted, jump, weight);
+            s.add_stiffness(&conducted, jump, measure);
         }
         out.add(&s.dofs, &s.force, &s.stiffness);
         if order == Order::Tangent
@@ -100,8 +99,8 @@ impl Interface {
         {
             s.couple(
                 filled,
-                (&conducted, crossing.jump_and_mean),
-                (weight, power),
+                (&conducted, jump_and_mean),
+                (measure, power),
                 (friction, self.duration),
             );
             scratch.rows.dofs(&self.layout, &mut scratch.dofs);
@@ -113,7 +112,7 @@ impl Interface {
         let temperatures = s.participants.iter().map(|of| of.temperature.abs());
         let far = temperatures.fold(0.0, f64::max);
         let pressed = self.rounding(&scratch.rows, trial, answer) * conducted.dpressure * jump;
-        let error = f64::EPSILON * weight * conducted.h.abs() * far + share * pressed.abs();
+        let error = f64::EPSILON * measure * conducted.h.abs() * far + pressed.abs();
         out.uncertain(&s.dofs, error);
         Ok(())
     }
@@ -158,7 +157,7 @@ impl Interface {
         };
         let mut conducted = Conducted::default();
         for path in heat.paths.iter().filter(|_| !s.insulated) {
-            conducted += path.at(&at, &self.parts.scale);
+            conducted += path.at(&at, &self.parts.scale).times(heat.share);
         }
         if pressure <= 0.0 {
             conducted.dpressure = 0.0;
@@ -177,8 +176,7 @@ impl Interface {
         Ok(Some(Crossing {
             conducted,
             jump_and_mean,
-            share: heat.share,
-            weight: heat.share * self.measure(row),
+            measure: self.measure(row),
             power,
             friction,
         }))

@@ -19,7 +19,7 @@ impl Interface {
                 let [_, _, rubbed] = crossing.per_area();
                 let s = &mut scratch.thermal;
                 let [jump, _] = crossing.jump_and_mean;
-                let works = (crossing.weight, crossing.power);
+                let works = (crossing.measure, crossing.power);
                 s.add_residual(&crossing.conducted, jump, works, crossing.friction);
                 let outside = s.dofs.iter().zip(&s.force);
                 let outside = outside.filter(|(dof, _)| **dof == NO_DOF);

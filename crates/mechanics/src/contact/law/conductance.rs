@@ -160,6 +160,20 @@ impl Conductance {
     }
 }
 
+impl Conducted {
+    /// A part of it.
+    #[must_use]
+    pub fn times(self, part: f64) -> Self {
+        Self {
+            h: self.h * part,
+            dpressure: self.dpressure * part,
+            dgap: self.dgap * part,
+            dmean: self.dmean * part,
+            djump: self.djump * part,
+        }
+    }
+}
+
 impl std::ops::AddAssign for Conducted {
     fn add_assign(&mut self, other: Self) {
         self.h += other.h;
