@@ -202,8 +202,12 @@ impl System {
         }
         frame.audits = self.audit(state, &frame);
         frame.free_motions = self.free_motions(state, &frame);
-        frame.samples = samples_of(&self.terms, state, &self.wanted.cells)?;
-        frame.heat_samples = heat_samples_of(&self.terms, state, &self.wanted.cells)?;
+        let cells = &self.wanted.cells;
+        let all = || self.terms.iter().map(|term| term.capabilities());
+        let solids = all().filter_map(|can| can.sampled);
+        frame.samples = sampled(cells, solids, |of, out| of.sample(state, cells, out))?;
+        let warm = all().filter_map(|can| can.sampled_heat);
+        frame.heat_samples = sampled(cells, warm, |of, out| of.sample_heat(state, cells, out))?;
         if self.wanted.forces {
             let internal = internal_forces(&self.terms, &self.layout, state)?;
             (frame.internal_force, frame.internal_heat) = (internal.forces, internal.heat);
@@ -302,39 +306,22 @@ fn of_heat(frame: &Frame) -> [NodalValues; 2] {
     ]
 }
 
-/// The samples of these cells, which are sorted, at an accepted state.
+/// Samples of some cells, by all terms that have some; nothing where none are wanted.
 ///
 /// # Errors
 /// A term that cannot evaluate the state.
-fn samples_of(
-    terms: &[Box<dyn Term>],
-    state: &State,
+fn sampled<T, S>(
     cells: &[CellId],
-) -> Result<Samples, TermError> {
+    terms: impl Iterator<Item = T>,
+    sample: impl Fn(T, &mut Samples<S>) -> Result<(), TermError>,
+) -> Result<Samples<S>, TermError>
+where
+    Samples<S>: Default,
+{
     let mut samples = Samples::default();
     if !cells.is_empty() {
-        let sampled = terms.iter().filter_map(|term| term.capabilities().sampled);
-        for term in sampled {
-            term.sample(state, cells, &mut samples)?;
-        }
-        samples.sort();
-    }
-    Ok(samples)
-}
-
-/// The fluxes of heat in these cells, likewise.
-fn heat_samples_of(
-    terms: &[Box<dyn Term>],
-    state: &State,
-    cells: &[CellId],
-) -> Result<Samples<Vec3>, TermError> {
-    let mut samples = Samples::default();
-    if !cells.is_empty() {
-        let conducting = terms
-            .iter()
-            .filter_map(|term| term.capabilities().sampled_heat);
-        for term in conducting {
-            term.sample_heat(state, cells, &mut samples)?;
+        for term in terms {
+            sample(term, &mut samples)?;
         }
         samples.sort();
     }
