@@ -29,6 +29,12 @@ pub(super) const PROCEDURES: [&str; 3] = [
     "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
 ];
 
+/// Whether a step of the deck solves for temperatures.
+pub(super) fn is_solved_for(statements: &[Statement]) -> bool {
+    let mut cards = statements.iter();
+    cards.any(|card| PROCEDURES.contains(&card.keyword.as_str()))
+}
+
 /// What is known of the heat of a material.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HeatProperties {
@@ -46,19 +52,15 @@ impl HeatProperties {
     /// Its heat in a case; what it stores counts by mass.
     pub fn case_of(self, has_density: bool) -> Option<Conduction> {
         let conductivity = self.conductivity?;
+        let (specific_heat, latent_heat) = match has_density {
+            true => (self.specific_heat, self.latent_heat),
+            false => Default::default(),
+        };
         Some(Conduction {
             conductivity: conductivity.value,
-            specific_heat: self.specific_heat,
-            latent_heat: self.latent_heat,
+            specific_heat,
+            latent_heat,
             place: conductivity.place,
-        })
-        .map(|heat| match has_density {
-            true => heat,
-            false => Conduction {
-                specific_heat: Vec::new(),
-                latent_heat: Vec::new(),
-                ..heat
-            },
         })
     }
 }
@@ -71,12 +73,6 @@ pub(super) struct GapHeat {
 }
 
 impl Translation<'_> {
-    /// Whether a step of the deck solves for temperatures.
-    pub fn solves_for_heat(&self) -> bool {
-        let mut cards = self.deck.statements.iter();
-        cards.any(|card| PROCEDURES.contains(&card.keyword.as_str()))
-    }
-
     /// Whether all steps of the deck solve for temperatures alone.
     pub fn is_all_heat(&self) -> bool {
         let count = |keyword: &str| {
@@ -173,21 +169,20 @@ impl Translation<'_> {
             self.not_negative(card, row.get(..1).unwrap_or_default());
         }
         if card.keyword == "GAPHEATGENERATION" {
-            let [fraction, to_secondary, speed] =
-                self.reals(rows.first().map_or(&[], Vec::as_slice));
+            let row = rows.first().map_or(&[][..], Vec::as_slice);
+            let mut given = |at: usize, otherwise: f64| {
+                let field = row.get(at).filter(|field| !field.text.is_empty());
+                field.map_or(otherwise, |field| self.real(Some(field)))
+            };
+            let (fraction, to_secondary, speed) = (given(0, 1.0), given(1, 0.5), given(2, 0.0));
             if speed > 0.0 {
                 let text = "a speed of its own in *GAP HEAT GENERATION is not supported";
                 let remark = "bodies that slide heat each other by their own motion";
                 self.error(&codes::NOT_BUILT, text, &card.place, remark);
             }
-            let given = |at: usize, otherwise: f64, value: f64| {
-                let row = rows.first().and_then(|row| row.get(at));
-                let is_given = row.is_some_and(|field| !field.text.is_empty());
-                if is_given { value } else { otherwise }
-            };
             gap.generation = Some(FrictionHeat {
-                fraction: given(0, 1.0, fraction),
-                to_secondary: given(1, 0.5, to_secondary),
+                fraction,
+                to_secondary,
             });
             return;
         }
@@ -218,7 +213,7 @@ impl Translation<'_> {
         gap: &GapHeat,
         of_faces: bool,
     ) -> (Vec<Conductance>, Option<FrictionHeat>) {
-        if !self.solves_for_heat() {
+        if !self.solves_for_heat {
             return (Vec::new(), Some(FrictionHeat::default()));
         }
         let generation = match self.compat {

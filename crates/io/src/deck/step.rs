@@ -372,7 +372,7 @@ impl Translation<'_> {
                     let first = self.count(row.get(1), 0);
                     let last = self.count(row.get(2), first);
                     let of_heat = (first, last) == (11, 11) || (first, last) == (0, 0);
-                    let all = match of_heat && self.solves_for_heat() {
+                    let all = match of_heat && self.solves_for_heat {
                         true => Some(vec![TEMPERATURE]),
                         false => components(first, last),
                     };

@@ -4,7 +4,7 @@ use super::compat::Compat;
 use super::keywords::{Keyword, Support};
 use super::names::Names;
 use super::repeated::Repeated;
-use super::{constraint, contact, material, sections, submodel};
+use super::{constraint, contact, heat, material, sections, submodel};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
@@ -37,6 +37,8 @@ pub(super) struct Translation<'d> {
     pub bends: bool,
     /// Whether sections are refused whose elements take loads that solids do not: moments, and pressures on their faces.
     pub has_structures: bool,
+    /// Whether a step solves for temperatures.
+    pub solves_for_heat: bool,
     pub materials: BTreeMap<String, material::Properties>,
     /// Places of amplitudes in the case, by what their names are compared by.
     pub amplitudes: BTreeMap<String, usize>,
@@ -120,6 +122,7 @@ impl<'d> Translation<'d> {
             carriers: BTreeMap::new(),
             bends: false,
             has_structures: sections::are_structures(&deck.statements),
+            solves_for_heat: heat::is_solved_for(&deck.statements),
             materials: BTreeMap::new(),
             amplitudes: BTreeMap::new(),
             pairs: Vec::new(),
