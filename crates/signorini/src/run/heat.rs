@@ -94,6 +94,18 @@ impl HeatAudit {
     }
 }
 
+/// The balance as results have it: what bodies took up counts in steps of all kinds, all else in transient ones.
+pub(super) fn reported(frame: &Frame) -> HeatBalance {
+    let balance = frame.heat.unwrap_or_default();
+    HeatBalance {
+        total: HeatFlows {
+            stored: frame.heat_stored,
+            ..balance.total
+        },
+        ..balance
+    }
+}
+
 /// The entry of `summary.json`.
 pub(super) fn summary(balance: &HeatBalance) -> HeatSummary {
     let entry = |flows: HeatFlows| HeatEntry {

@@ -1,5 +1,6 @@
 //! The rows of `history.csv`: the report of every accepted increment.
 
+use super::heat;
 use super::probe::{Probe, ProbeError, quantities};
 use crate::setup::Model;
 use signorini_geometry::surface::RigidId;
@@ -11,7 +12,7 @@ use signorini_io::writers::csv::{
     HISTORY_COLUMNS, HistoryOf, REFERENCE_COLUMNS, history_columns, reference_columns,
 };
 use signorini_mechanics::system::{
-    ContactFrame, Energies, Frame, HeatBalance, HeatFlows, Resultant, RigidFrame, Wear,
+    ContactFrame, Energies, Frame, HeatBalance, Resultant, RigidFrame, Wear,
 };
 
 /// The columns of a run and where their values come from.
@@ -156,7 +157,7 @@ impl History {
             values.extend(works.unwrap_or_default());
         }
         if self.has_heat {
-            values.extend(of_heat(&frame.heat.unwrap_or_default(), frame.heat_stored));
+            values.extend(of_heat(&heat::reported(frame)));
         }
         for name in &self.conducting {
             let of_name = frame.contacts.iter().find(|c| c.name == *name);
@@ -337,13 +338,9 @@ fn of_energies(e: &Energies) -> [f64; ENERGY_COLUMNS.len()] {
     ]
 }
 
-fn of_heat(heat: &HeatBalance, stored: f64) -> [f64; HEAT_COLUMNS.len()] {
+fn of_heat(heat: &HeatBalance) -> [f64; HEAT_COLUMNS.len()] {
     let mut values = [0.0; HEAT_COLUMNS.len()];
-    let total = HeatFlows {
-        stored,
-        ..heat.total
-    };
-    let flows = [heat.rate, total].map(|flows| flows.to_array());
+    let flows = [heat.rate, heat.total].map(|flows| flows.to_array());
     let all = flows.as_flattened().iter().copied();
     let all = all.chain([heat.imbalance()]);
     values

@@ -1,6 +1,7 @@
 //! Iterations, cut-backs and increments: what becomes of each in tables and news.
 
 use super::Recorder;
+use crate::run::heat;
 use crate::run::news::SLOW;
 use crate::run::news::{Detail, Effort};
 use signorini_io::case::Every;
@@ -236,7 +237,7 @@ impl Recorder<'_> {
         self.worn = wears.filter_map(deep).collect();
         self.work_stabilization = frame.work_stabilization;
         self.work_external = frame.work_external;
-        self.heat = frame.heat;
+        self.heat = frame.heat.map(|_| heat::reported(frame));
         self.audit.look(frame);
         let event = Event::Increment {
             step: name,
