@@ -17,7 +17,8 @@
 //! A jump is taken only where no equilibrium is found without it: before, the increment is gone through in parts
 //! ([`super::nearby`]).
 //!
-//! Limits: inertia plays no part. A stage takes no time, in which no heat could be stored: transient steps take no jumps. A jump that never comes to rest (a body that falls, a limit load) fails as before.
+//! Limits: inertia plays no part. A stage takes no time, in which no heat could be stored: transient steps take no jumps. A jump that
+//! never comes to rest (a body that falls, a limit load) fails as before.
 
 use super::event::{Event, Observer};
 use super::step::Step;
