@@ -32,7 +32,7 @@ pub enum Initiation {
 /// ```text
 /// K_B = K_n (1 − B) + K_s B,   λ = √(A/K_B),   δ_f = 2 G_c/(K_B δ₀)
 /// D = δ_f (λ − δ₀)/(λ (δ_f − δ₀))
-/// Φ = G_c (κ − δ₀)/(δ_f − δ₀),   κ = δ_f δ₀/(δ_f − D (δ_f − δ₀))
+/// Φ = G_c (κ − δ₀)/(δ_f − δ₀) = G_c D δ₀/((1 − D) δ_f + D δ₀),   κ = δ_f δ₀/((1 − D) δ_f + D δ₀)
 /// ```
 ///
 /// # Source
@@ -212,8 +212,6 @@ impl CohesiveLaw for Bilinear {
             toughness,
             ..
         } = self.mix(b);
-        let softens = last - first;
-        let way = last * first / (last - damage * softens);
-        toughness * (way - first) / softens
+        toughness * damage * first / ((1.0 - damage) * last + damage * first)
     }
 }
