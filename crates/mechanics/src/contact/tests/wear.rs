@@ -36,6 +36,10 @@ fn scene(
     let first = scene.layout.ndof() - scene.layout.nmultiplier();
     let corners = scene.state.u.iter_mut().skip(first).filter(|u| **u == 0.0);
     corners.for_each(|u| *u = 0.02 * random.signed());
+    // and where a row has just met the other side, so that its way is zero
+    let mut v = vec![0.0; scene.layout.ndof()];
+    v[..first].fill_with(|| random.signed());
+    scene.state = scene.moved(&v, 1e-3);
     scene
 }
 
@@ -46,7 +50,7 @@ fn walk(kind: Kind, of_laws: &[usize], every: usize) {
         for law in of_laws {
             for friction in frictions().iter().step_by(every) {
                 for wear in WEAR {
-                    let mut tried = 0;
+                    let (mut tried, mut kinks) = (0, 0);
                     for seed in 1..=6 {
                         let mut scene = scene(kind, method, *law, friction, wear, seed);
                         let found = tangent_error(&mut scene, seed);
@@ -55,8 +59,9 @@ fn walk(kind: Kind, of_laws: &[usize], every: usize) {
                             .as_ref()
                             .map(|(law, stick)| (law.limit(&Default::default()), *stick));
                         let name = format!("{kind:?} {method:?} {law} {how:?} {wear:?} {seed}");
-                        // laws have corners where the pressure vanishes
                         if u.max(lambda) > 1e-7 && has_kink(&mut scene, seed) {
+                            kinks += 1;
+                            assert!(kinks < 3, "{name}: kinks at {kinks} seeds");
                             continue;
                         }
                         assert!(u < 1e-7 && lambda < 1e-7, "{name}: {u:e} {lambda:e}");
