@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 47] = [
+const ROOMS: [Room; 48] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -69,7 +69,8 @@ const ROOMS: [Room; 47] = [
             "geometry::proximity",
         ],
     ),
-    room("linear", &[]),
+    room("ranks", &[]),
+    room("linear", &["ranks"]),
     room("mechanics", &[]),
     room("mechanics::system", &["linear", "geometry"]),
     room("mechanics::material", &["vocabulary", "geometry::tensor"]),
@@ -148,7 +149,14 @@ const ROOMS: [Room; 47] = [
     room("report", &["io", "geometry"]),
     room(
         "signorini",
-        &["io", "mechanics", "linear", "geometry", "vocabulary"],
+        &[
+            "io",
+            "mechanics",
+            "linear",
+            "ranks",
+            "geometry",
+            "vocabulary",
+        ],
     ),
     room("verification", &["signorini", "io", "geometry"]),
     room("mcp", &[]),
@@ -162,6 +170,7 @@ const ROOMS: [Room; 47] = [
             "io",
             "mechanics",
             "linear",
+            "ranks",
             "geometry",
             "vocabulary",
         ],
