@@ -142,18 +142,7 @@ impl BodyFactor {
 
     /// Whether almost all multipliers have about the springs that the factor was made with.
     fn is_held_like(&self, springs: &[(usize, f64)]) -> bool {
-        let (mut old, mut new) = (self.springs.iter().peekable(), springs.iter().peekable());
-        let mut changes = 0;
-        while let Some(dof) = [old.peek(), new.peek()]
-            .into_iter()
-            .flatten()
-            .map(|s| s.0)
-            .min()
-        {
-            let [a, b] = [&mut old, &mut new]
-                .map(|springs| springs.next_if(|s| s.0 == dof).map_or(0.0, |s| s.1));
-            changes += usize::from((a - b).abs() > CHANGED * a.max(b));
-        }
+        let changes = springs::changes(&self.springs, springs, CHANGED);
         changes as f64 <= TOLERATED * self.price()
     }
 

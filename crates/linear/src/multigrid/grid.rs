@@ -152,6 +152,38 @@ pub(super) enum Wanted {
     Part { part: f64, enough: f64 },
 }
 
+impl Wanted {
+    /// The part of a residual or an error that is asked for, by conjugate gradients or by minimal residuals.
+    pub(super) fn part(self, symmetric: bool) -> f64 {
+        match self {
+            Self::Residual(rtol) => rtol,
+            Self::Part { part, .. } if symmetric => part,
+            Self::Part { part, .. } => STRICTER * part,
+        }
+    }
+
+    /// When iterations stop in an attempt, if this part is asked for and residuals are compared with this size.
+    pub(super) fn stop(self, part: f64, size: f64, attempt: usize) -> Stop {
+        match self {
+            Self::Residual(_) => Stop::Largest(0.5 * part * size),
+            Self::Part { enough, .. } => Stop::Part {
+                part: if attempt == 0 { part } else { STRICTER },
+                enough,
+            },
+        }
+    }
+}
+
+/// Rows of bodies that float where contact holds what nothing else does.
+pub(super) fn supports(fine: &Fine, kept: &Kept, values: &Values) -> Vec<u32> {
+    if fine.floating.is_empty() {
+        return Vec::new();
+    }
+    let touched = touched(kept, values);
+    let is_touched = |&row: &u32| touched[fine.node[row as usize] as usize];
+    fine.floating.iter().copied().filter(is_touched).collect()
+}
+
 impl Grid {
     pub(super) fn new(kept: &Kept) -> Self {
         let fine = Fine::new(kept);
@@ -210,21 +242,6 @@ impl Grid {
         (self.base, self.worn) = (None, 0);
         self.factor.expire();
         self.block.forget();
-    }
-
-    /// Where contact holds what nothing else does.
-    pub(super) fn springs(&self, kept: &Kept, values: &Values) -> Vec<u32> {
-        if self.fine.floating.is_empty() {
-            return Vec::new();
-        }
-        let touched = touched(kept, values);
-        let is_touched = |&row: &u32| touched[self.fine.node[row as usize] as usize];
-        self.fine
-            .floating
-            .iter()
-            .copied()
-            .filter(is_touched)
-            .collect()
     }
 
     /// The stiffness of the bodies times a vector of signs.
@@ -321,7 +338,7 @@ impl Grid {
             }
         }
         let is_worn = self.worn > 1;
-        let springs = self.springs(kept, values);
+        let springs = supports(&self.fine, kept, values);
         let [few, many] = [&springs, &self.springs].map(Vec::len);
         let (few, many) = (few.min(many), few.max(many));
         let damping = alone::strength(kept, values, &self.fine);
@@ -496,20 +513,10 @@ impl Grid {
             }
             other => other,
         };
-        let part = match wanted {
-            Wanted::Residual(rtol) => rtol,
-            Wanted::Part { part, .. } if symmetric => part,
-            Wanted::Part { part, .. } => STRICTER * part,
-        };
+        let part = wanted.part(symmetric);
         for attempt in 0..ATTEMPTS {
             let most = ITERATIONS.saturating_sub(report.iterations);
-            let stop = match wanted {
-                Wanted::Residual(_) => Stop::Largest(0.5 * part * size),
-                Wanted::Part { enough, .. } => Stop::Part {
-                    part: if attempt == 0 { part } else { STRICTER },
-                    enough,
-                },
-            };
+            let stop = wanted.stop(part, size, attempt);
             let mut operators = OneGrid {
                 grid: self,
                 kept,

@@ -30,6 +30,26 @@ pub(super) trait Operators {
     /// # Errors
     /// Those of solvers in it.
     fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError>;
+
+    /// The sum over all ranks, where vectors are shared out among them.
+    fn sum(&mut self, own: f64) -> f64 {
+        own
+    }
+
+    /// The largest number of all ranks.
+    fn most(&mut self, own: f64) -> f64 {
+        own
+    }
+
+    /// The inner product of two vectors.
+    fn dot(&mut self, a: &[f64], b: &[f64]) -> f64 {
+        self.sum(dot(a, b))
+    }
+
+    /// The largest entry of a vector, without its sign.
+    fn largest(&mut self, of: &[f64]) -> f64 {
+        self.most(largest(of))
+    }
 }
 
 /// How an iteration ended.
@@ -68,10 +88,6 @@ impl Stop {
             Self::Largest(_) => None,
             Self::Part { part, .. } => Some(part),
         }
-    }
-
-    fn is_reached(self, r: &[f64]) -> bool {
-        largest(r) <= self.largest()
     }
 }
 
@@ -129,13 +145,13 @@ pub(super) fn conjugate_gradients(
     let n = r.len();
     let (mut z, mut p, mut q) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let (mut before, mut first) = (0.0, None);
-    let largest_first = largest(r);
+    let largest_first = of.largest(r);
     for iteration in 0..most {
-        if stop.is_reached(r) {
+        if of.largest(r) <= stop.largest() {
             return Ok((End::Small, iteration));
         }
         of.precondition(r, &mut z)?;
-        let product = dot(r, &z);
+        let product = of.dot(r, &z);
         if product.is_nan() || product <= 0.0 {
             return Ok((End::Indefinite, iteration + 1));
         }
@@ -147,7 +163,10 @@ pub(super) fn conjugate_gradients(
             return Ok((End::Small, iteration + 1));
         }
         if iteration == PATIENCE {
-            let of_largest = (largest(r) / largest_first, stop.largest() / largest_first);
+            let of_largest = (
+                of.largest(r) / largest_first,
+                stop.largest() / largest_first,
+            );
             let of_energy = stop.part().map(|part| ((product / start).sqrt(), part));
             let ways = [Some(of_largest), of_energy];
             let is_hopeless = |(size, goal)| is_hopeless(size, goal, most);
@@ -165,7 +184,7 @@ pub(super) fn conjugate_gradients(
             *p = z + beta * *p;
         }
         of.apply(&p, &mut q);
-        let curvature = dot(&p, &q);
+        let curvature = of.dot(&p, &q);
         if curvature.is_nan() || curvature <= 0.0 {
             return Ok((End::Indefinite, iteration + 1));
         }
@@ -229,16 +248,16 @@ pub(super) fn minimal_residuals(
 ) -> Result<(End, usize), LinearError> {
     let n = r.len();
     let mut total = 0;
-    let start = dot(r, r).sqrt();
+    let start = of.dot(r, r).sqrt();
     let (mut sum, mut change) = (vec![0.0; n], vec![0.0; n]);
     while total < most {
-        let size = dot(r, r).sqrt();
+        let size = of.dot(r, r).sqrt();
         let goal = stop.part().map_or(0.0, |part| part * start);
-        if size <= goal || stop.is_reached(r) {
+        if size <= goal || of.largest(r) <= stop.largest() {
             return Ok((End::Small, total));
         }
         // the largest entry over the norm, where it was looked at last
-        let mut spread = largest(r) / size;
+        let mut spread = of.largest(r) / size;
         let mut basis = vec![r.iter().map(|r| r / size).collect::<Vec<f64>>()];
         let mut directions: Vec<Vec<f64>> = Vec::new();
         // columns of the triangle, rotations, and the right side
@@ -256,10 +275,10 @@ pub(super) fn minimal_residuals(
             total += 1;
             let mut column = vec![0.0; k + 2];
             for (h, v) in column.iter_mut().zip(&basis) {
-                *h = dot(&w, v);
+                *h = of.dot(&w, v);
                 add(-*h, v, &mut w);
             }
-            let left = dot(&w, &w).sqrt();
+            let left = of.dot(&w, &w).sqrt();
             column[k + 1] = left;
             rotate(&mut column, &mut turns, &mut right);
             triangle.push(column);
@@ -273,7 +292,7 @@ pub(super) fn minimal_residuals(
             // the largest entry is looked at where the norm says that it may be small enough
             if !is_reached && size * spread <= NEARLY * stop.largest() {
                 residual_of(&basis, &turns, right[k + 1], &mut change);
-                let left = largest(&change);
+                let left = of.largest(&change);
                 is_reached = left <= stop.largest();
                 spread = left / size;
             }

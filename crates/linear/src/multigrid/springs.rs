@@ -136,6 +136,23 @@ pub(super) fn rows_and_strengths(
     (Some(all).filter(|all| !all.column.is_empty()), strengths)
 }
 
+/// How many springs of multipliers, given by raw dofs and stiffness, differ between two lists by more than this part.
+pub(super) fn changes(old: &[(usize, f64)], new: &[(usize, f64)], part: f64) -> usize {
+    let (mut old, mut new) = (old.iter().peekable(), new.iter().peekable());
+    let mut changes = 0;
+    while let Some(dof) = [old.peek(), new.peek()]
+        .into_iter()
+        .flatten()
+        .map(|s| s.0)
+        .min()
+    {
+        let [a, b] = [&mut old, &mut new]
+            .map(|springs| springs.next_if(|s| s.0 == dof).map_or(0.0, |s| s.1));
+        changes += usize::from((a - b).abs() > part * a.max(b));
+    }
+    changes
+}
+
 /// Makes springs no stiffer than `STIFFEST` allows compared with this diagonal.
 pub(super) fn limit<const N: usize>(rows: &mut Rows<N>, diagonal: impl Fn(usize) -> [f32; N]) {
     let inverse_root = |d: f32| {
