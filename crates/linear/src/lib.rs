@@ -43,6 +43,8 @@ pub use error::LinearError;
 pub use forecast::{Forecast, Path};
 pub use modes::{Mode, Modes, Wanted, lowest_modes};
 pub use multigrid::Multigrid;
+#[cfg(feature = "mpi")]
+pub use multigrid::Petsc;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};

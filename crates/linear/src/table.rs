@@ -2,6 +2,8 @@
 
 use crate::condensation::Condensed;
 use crate::direct::Direct;
+#[cfg(feature = "mpi")]
+use crate::multigrid::Petsc;
 use crate::multigrid::{MULTIGRID_FROM, Multigrid};
 #[cfg(feature = "mumps")]
 use crate::mumps::Mumps;
@@ -11,7 +13,7 @@ use crate::solver::LinearSolver;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearKind {
     /// The one that suits the problem: multigrid in space, from 8,000 equations on, or 1,500 where the matrix is not
-    /// definite; the direct one else.
+    /// definite; the direct one else. Where several ranks compute together, that of PETSc.
     #[default]
     Auto,
     /// A sparse factorization, with multipliers condensed where they can be.
@@ -23,6 +25,9 @@ pub enum LinearKind {
     /// That of the library MUMPS.
     #[cfg(feature = "mumps")]
     Mumps,
+    /// Multigrid of the library PETSc, over the ranks of MPI.
+    #[cfg(feature = "mpi")]
+    Petsc,
 }
 
 /// A line of the table of solvers.
@@ -83,7 +88,7 @@ pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,
         name: "auto",
-        build: || Box::new(Multigrid::from_sizes(MULTIGRID_FROM)),
+        build: automatic,
     },
     SolverEntry {
         kind: LinearKind::Direct,
@@ -106,7 +111,22 @@ pub const SOLVERS: &[SolverEntry] = &[
         name: "mumps",
         build: || Box::new(Mumps::new()),
     },
+    #[cfg(feature = "mpi")]
+    SolverEntry {
+        kind: LinearKind::Petsc,
+        name: "petsc",
+        build: || Box::new(Petsc::new()),
+    },
 ];
+
+/// The solver that chooses for itself.
+fn automatic() -> Box<dyn LinearSolver> {
+    #[cfg(feature = "mpi")]
+    if signorini_ranks::world().size() > 1 {
+        return Box::new(Petsc::new());
+    }
+    Box::new(Multigrid::from_sizes(MULTIGRID_FROM))
+}
 
 /// Makes a solver of the given kind.
 pub fn choose(kind: LinearKind) -> Box<dyn LinearSolver> {

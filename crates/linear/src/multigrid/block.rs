@@ -101,6 +101,12 @@ impl InterfaceBlock {
         Factor::of(&block.problem(kept))
     }
 
+    /// The equations outside that it is coupled with, some of them several times.
+    #[cfg(feature = "mpi")]
+    pub fn coupled(&self) -> &[u32] {
+        &self.outer.column
+    }
+
     fn problem(&self, kept: &Kept) -> Problem<'_> {
         Problem {
             ndof: self.equation.len(),

@@ -45,6 +45,8 @@ mod krylov;
 mod level;
 mod nodal;
 mod packed;
+#[cfg(feature = "mpi")]
+mod petsc;
 mod springs;
 #[cfg(test)]
 mod tests;
@@ -61,6 +63,8 @@ use crate::solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStif
 use crate::sparsity::NONE;
 use block::InterfaceBlock;
 use grid::{Grid, Start, Wanted};
+#[cfg(feature = "mpi")]
+pub use petsc::Petsc;
 use rayon::prelude::*;
 use std::any::Any;
 use values::CHUNK;
@@ -183,13 +187,7 @@ impl LinearSolver for Multigrid {
         let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
         self.way = None;
         kept.check(values)?;
-        // without a branch for each value
-        let is_finite = |some: &[f64]| some.iter().fold(true, |all, v| all & v.is_finite());
-        let chunks = |all| <[f64]>::par_chunks(all, CHUNK);
-        if !chunks(values.bulk)
-            .chain(chunks(values.interface))
-            .all(is_finite)
-        {
+        if !all_finite(values) {
             return Err(LinearError::NotFinite);
         }
         let serves = match &mut self.grid {
@@ -366,6 +364,16 @@ pub(crate) fn suits(problem: &Problem, least: [usize; 2]) -> bool {
         && problem.nequation >= least
         && problem.coordinates.len() == problem.bulk.nrow()
         && !has_shared(problem)
+}
+
+/// Whether all values are numbers.
+fn all_finite(values: &Values) -> bool {
+    // without a branch for each value
+    let is_finite = |some: &[f64]| some.iter().fold(true, |all, v| all & v.is_finite());
+    let chunks = |all| <[f64]>::par_chunks(all, CHUNK);
+    chunks(values.bulk)
+        .chain(chunks(values.interface))
+        .all(is_finite)
 }
 
 /// The size of the factor at the interface of a problem.

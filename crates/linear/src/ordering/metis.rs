@@ -1,4 +1,4 @@
-//! Nested dissection by METIS: the only call into that library.
+//! Nested dissection and parts of graphs by METIS: the only calls into that library.
 //!
 //! G. Karypis and V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs,
 //! SIAM J. Sci. Comput. 20 (1998) 359–392.
@@ -18,22 +18,12 @@ static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 /// # Limits
 /// The graph must be symmetric and without loops, which [`Graph`] guarantees.
 pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
-    if graph.neighbour.is_empty() {
-        return None;
-    }
-    let narrow = |&n: &usize| i32::try_from(n).ok();
-    let mut nvertex = i32::try_from(graph.nvertex()).ok()?;
-    let mut start = graph
-        .start
-        .iter()
-        .map(narrow)
-        .collect::<Option<Vec<i32>>>()?;
-    let mut neighbour = graph
-        .neighbour
-        .iter()
-        .map(|&v| v as i32)
-        .collect::<Vec<_>>();
-    let mut weight = graph.weight.iter().map(|&w| w as i32).collect::<Vec<_>>();
+    let Lists {
+        mut nvertex,
+        mut start,
+        mut neighbour,
+        mut weight,
+    } = Lists::of(graph)?;
     let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
     let mut order = vec![0i32; graph.nvertex()];
     let mut place = vec![0i32; graph.nvertex()];
@@ -62,6 +52,74 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     };
     (status == metis_sys::rstatus_et_METIS_OK)
         .then(|| order.into_iter().map(|v| v as u32).collect())
+}
+
+/// Parts of a graph with about the same weight and few edges between them: the part of each vertex. `None` as for
+/// [`nested_dissection`], and where there are fewer than two parts.
+#[cfg(feature = "mpi")]
+pub(super) fn partition(graph: &Graph, nparts: usize) -> Option<Vec<u32>> {
+    let Lists {
+        mut nvertex,
+        mut start,
+        mut neighbour,
+        mut weight,
+    } = Lists::of(graph)?;
+    let mut nparts = i32::try_from(nparts).ok().filter(|&n| n > 1)?;
+    let mut nconstraint = 1;
+    let mut cut = 0;
+    let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
+    let mut part = vec![0i32; graph.nvertex()];
+
+    let _guard = ONE_AT_A_TIME
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    #[cfg(target_os = "linux")]
+    let _handlers = handlers::Kept::new();
+    // SAFETY: as in `nested_dissection`; `part` has nvertex entries, the two numbers are live, and METIS takes null for
+    // the weights of edges, the sizes of vertices, the shares of parts and the imbalance that it does not get.
+    let status = unsafe {
+        metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+        metis_sys::METIS_PartGraphKway(
+            &mut nvertex,
+            &mut nconstraint,
+            start.as_mut_ptr(),
+            neighbour.as_mut_ptr(),
+            weight.as_mut_ptr(),
+            std::ptr::null_mut(),
+            std::ptr::null_mut(),
+            &mut nparts,
+            std::ptr::null_mut(),
+            std::ptr::null_mut(),
+            options.as_mut_ptr(),
+            &mut cut,
+            part.as_mut_ptr(),
+        )
+    };
+    (status == metis_sys::rstatus_et_METIS_OK).then(|| part.into_iter().map(|p| p as u32).collect())
+}
+
+/// A graph in the numbers of METIS.
+struct Lists {
+    nvertex: i32,
+    start: Vec<i32>,
+    neighbour: Vec<i32>,
+    weight: Vec<i32>,
+}
+
+impl Lists {
+    /// `None` where there is no edge, or a number needs more than 32 bits.
+    fn of(graph: &Graph) -> Option<Self> {
+        if graph.neighbour.is_empty() {
+            return None;
+        }
+        let narrow = |&n: &usize| i32::try_from(n).ok();
+        Some(Self {
+            nvertex: i32::try_from(graph.nvertex()).ok()?,
+            start: graph.start.iter().map(narrow).collect::<Option<_>>()?,
+            neighbour: graph.neighbour.iter().map(|&v| v as i32).collect(),
+            weight: graph.weight.iter().map(|&w| w as i32).collect(),
+        })
+    }
 }
 
 /// METIS handles SIGABRT and SIGTERM itself while it works, and gives the handlers of the program back without their flags: for
@@ -140,6 +198,22 @@ mod tests {
             );
             assert_eq!(order, again);
         }
+    }
+
+    #[cfg(feature = "mpi")]
+    #[test]
+    fn parts_are_about_as_large_and_repeat() {
+        for nparts in [2, 3, 7] {
+            let graph = grid(40);
+            let part = partition(&graph, nparts).unwrap();
+            for p in 0..nparts as u32 {
+                let size = part.iter().filter(|&&of| of == p).count() as f64;
+                let mean = 1600.0 / nparts as f64;
+                assert!((size - mean).abs() < 0.1 * mean, "{size} of {mean}");
+            }
+            assert_eq!(part, partition(&graph, nparts).unwrap());
+        }
+        assert!(partition(&grid(5), 1).is_none());
     }
 
     #[test]

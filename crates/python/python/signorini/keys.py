@@ -1826,9 +1826,9 @@ class Solver(Table):
         "`\"refuse\"`, `\"hold\"`",
         default="refuse",
     )
-    linear: Key[Literal["auto", "direct", "multigrid", "mumps"], Literal["auto", "direct", "multigrid", "mumps"]] = Key(
-        "How linear equations are solved: auto takes multigrid for large models in space and the direct solver for others; mumps is there where the program was built with it",
-        "`\"auto\"`, `\"direct\"`, `\"multigrid\"`, `\"mumps\"`",
+    linear: Key[Literal["auto", "direct", "multigrid", "mumps", "petsc"], Literal["auto", "direct", "multigrid", "mumps", "petsc"]] = Key(
+        "How linear equations are solved: auto takes multigrid for large models in space and the direct solver for others; petsc shares them out among the ranks of mpirun, and is what auto takes there; mumps and petsc are there where the program was built with them",
+        "`\"auto\"`, `\"direct\"`, `\"multigrid\"`, `\"mumps\"`, `\"petsc\"`",
         default="auto",
     )
     newton: One[SolverNewton] = One(SolverNewton, "Newton's method", "a table")

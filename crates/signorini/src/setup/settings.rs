@@ -44,7 +44,12 @@ fn linear(choice: &Spanned<case::LinearChoice>, found: &mut Diagnostics) -> Line
                     format!("`linear = \"{word}\"` needs a library that this program was built without"),
                 )
                 .at(&choice.place, "known, but not in this build")
-                .note("with the library (Debian: libmumps-seq-dev):  cargo build --release --features mumps")
+                .note(match choice.value {
+                    case::LinearChoice::Petsc => {
+                        "with PETSc and MPI (Debian: libpetsc-real-dev, libopenmpi-dev, openmpi-bin):  cargo build --release --features mpi"
+                    }
+                    _ => "with the library (Debian: libmumps-seq-dev):  cargo build --release --features mumps",
+                })
                 .help("without it:  linear = \"direct\""),
             );
             LinearKind::default()

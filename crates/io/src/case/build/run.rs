@@ -34,6 +34,7 @@ impl Builder<'_> {
                     "direct" => LinearChoice::Direct,
                     "multigrid" => LinearChoice::Multigrid,
                     "mumps" => LinearChoice::Mumps,
+                    "petsc" => LinearChoice::Petsc,
                     _ => LinearChoice::Auto,
                 },
                 place: linear.place,

@@ -57,6 +57,8 @@ pub enum LinearChoice {
     Multigrid,
     /// By that of the library MUMPS, which not every build has.
     Mumps,
+    /// By multigrid of the library PETSc over the ranks of MPI, which not every build has.
+    Petsc,
 }
 
 impl LinearChoice {
@@ -68,6 +70,7 @@ impl LinearChoice {
             Self::Direct => "direct",
             Self::Multigrid => "multigrid",
             Self::Mumps => "mumps",
+            Self::Petsc => "petsc",
         }
     }
 }

@@ -14,9 +14,10 @@ pub(super) static SOLVER: Table = Table {
                 word("direct"),
                 word("multigrid"),
                 word("mumps"),
+                word("petsc"),
                 Choice::later("iterative", "direct"),
             ]),
-            "how linear equations are solved: auto takes multigrid for large models in space and the direct solver for others; mumps is there where the program was built with it",
+            "how linear equations are solved: auto takes multigrid for large models in space and the direct solver for others; petsc shares them out among the ranks of mpirun, and is what auto takes there; mumps and petsc are there where the program was built with them",
         )
         .or(Default::Text("auto")),
         key(
