@@ -15,16 +15,19 @@ fn a_solver_that_does_not_exist_is_refused() {
     run_text(&solved_by("pardiso")).says(3, &["S0110", "mumps", "case.toml:"]);
 }
 
-#[cfg(not(feature = "mumps"))]
 #[test]
 fn without_its_library_a_solver_is_refused_and_the_way_to_it_told() {
-    let words = [
-        "S0111",
-        "`linear = \"mumps\"` needs",
-        "case.toml:",
-        "--features mumps",
+    let optional = [
+        ("mumps", "mumps", cfg!(feature = "mumps")),
+        ("petsc", "mpi", cfg!(feature = "mpi")),
     ];
-    run_text(&solved_by("mumps")).says(3, &words);
+    for (word, feature, is_built) in optional {
+        let needs = format!("`linear = \"{word}\"` needs");
+        let way = format!("--features {feature}");
+        if !is_built {
+            run_text(&solved_by(word)).says(3, &["S0111", &needs, "case.toml:", &way]);
+        }
+    }
 }
 
 /// The columns of the history, by name.
@@ -123,4 +126,17 @@ mod mumps {
         let resolved = read(&result(&folder, "case.resolved.toml"));
         assert!(resolved.contains("linear = \"mumps\""), "{resolved}");
     }
+}
+
+#[cfg(feature = "mpi")]
+#[test]
+fn petsc_and_the_direct_solver_agree_in_every_history() {
+    // bodies that float, a rigid body, friction, and the plane, which is solved without it
+    let examples = [
+        "paper_brick_arbitrary_3d",
+        "patch_3d_mortar",
+        "friction_loop_3d_node_to_segment",
+        "two_blocks_2d",
+    ];
+    agree_in_every_history("petsc", &examples, 1e-8);
 }

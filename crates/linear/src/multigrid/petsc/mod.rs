@@ -11,7 +11,8 @@
 //! of rigid bodies, zero where they are held, lead to its levels. Every rank factorizes the whole block of the interface.
 //!
 //! Problems that no hierarchy serves (the plane, other fields, equations that dofs share) are solved on every rank by
-//! [`Multigrid`], as are those with which iterations fail, until the increment ends.
+//! [`Multigrid`], as are those with which iterations fail (nearly incompressible bodies), until the increment ends, and from the
+//! second such increment on for the rest of the run.
 //!
 //! Needs the feature `mpi` and the library, of real numbers in double precision with indices of 32 bits.
 //!
@@ -31,10 +32,15 @@ use crate::solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStif
 use fleet::Fleet;
 use std::any::Any;
 
+/// Increments in which iterations fail before they are tried no more.
+const FAILURES: u8 = 2;
+
 /// Multigrid over the ranks of MPI.
 pub struct Petsc {
     kept: Option<Kept>,
     fleet: Option<Fleet>,
+    /// Increments in which iterations have failed, as far as they count.
+    failures: u8,
     /// What stands in for it, on every rank.
     alone: Multigrid,
     /// What has the present values.
@@ -62,6 +68,7 @@ impl Petsc {
         Self {
             kept: None,
             fleet: None,
+            failures: 0,
             alone: Multigrid::from_sizes(MULTIGRID_FROM),
             way: None,
             notes: Vec::new(),
@@ -151,8 +158,11 @@ impl LinearSolver for Petsc {
         if !all_finite(values) {
             return Err(LinearError::NotFinite);
         }
+        let is_tried = self.failures < FAILURES;
         let serves = match &mut self.fleet {
-            Some(fleet) if !fleet.has_failed => fleet.update(kept, values, &mut self.notes)?,
+            Some(fleet) if is_tried && !fleet.has_failed => {
+                fleet.update(kept, values, &mut self.notes)?
+            }
             _ => false,
         };
         if !serves {
@@ -191,7 +201,7 @@ impl LinearSolver for Petsc {
 impl Iterative for Petsc {
     fn iterates(&self) -> bool {
         match &self.fleet {
-            Some(fleet) if !fleet.has_failed => true,
+            Some(fleet) if self.failures < FAILURES && !fleet.has_failed => true,
             _ => self.alone.iterates(),
         }
     }
@@ -214,11 +224,12 @@ impl Iterative for Petsc {
     fn start_from(&mut self, _: u64, _: StartStiffness) {}
 
     fn experience(&self) -> u8 {
-        self.alone.experience()
+        2 * self.failures + self.alone.experience().min(1)
     }
 
     fn recall(&mut self, experience: u8) {
-        self.alone.recall(experience);
+        self.failures = FAILURES.min(experience / 2);
+        self.alone.recall(experience % 2);
     }
 
     fn bequeath(&mut self) -> Option<Box<dyn Any + Send>> {
