@@ -29,6 +29,7 @@ mod load;
 mod own;
 pub mod prelude;
 pub mod preview;
+pub mod ranks;
 pub mod resume;
 pub mod run;
 pub mod setup;

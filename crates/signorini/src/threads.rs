@@ -18,9 +18,16 @@ const MOST: u64 = 4096;
 /// ```
 #[must_use]
 pub fn count(wanted: Option<u64>) -> usize {
+    count_of_one(wanted, 1)
+}
+
+/// As [`count`], for one of some processes that share the cores of this machine: each of them has at least one.
+#[must_use]
+pub fn count_of_one(wanted: Option<u64>, processes: usize) -> usize {
     let environment = || std::env::var("OMP_NUM_THREADS").ok()?.trim().parse().ok();
-    let machine = || std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
+    let machine = || std::thread::available_parallelism().map_or(1, |n| n.get());
+    let share = || (machine() / processes.max(1)).max(1) as u64;
     let wanted = wanted.or_else(environment).filter(|n| *n > 0);
-    let wanted = wanted.unwrap_or_else(machine);
+    let wanted = wanted.unwrap_or_else(share);
     usize::try_from(wanted.min(MOST)).unwrap_or(1)
 }

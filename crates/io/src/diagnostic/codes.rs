@@ -10,6 +10,7 @@
 //! | S06xx | writing results                              | 6, or 3   |
 //! | S07xx | going on with a run                          | 7         |
 //! | S08xx | limits                                       | 8         |
+//! | S09xx | several processes                            | 70        |
 //!
 //! What is once released under a code keeps its meaning.
 
@@ -28,6 +29,8 @@ pub enum Class {
     Restart,
     /// A limit was reached; the run can go on.
     Limit,
+    /// The program itself fails, or the processes of a run do.
+    Internal,
 }
 
 impl Class {
@@ -40,6 +43,7 @@ impl Class {
             Class::Output => 6,
             Class::Restart => 7,
             Class::Limit => 8,
+            Class::Internal => 70,
         }
     }
 }
@@ -577,6 +581,15 @@ codes! {
     "The machine, or a limit of the shell, gave no more memory. What had converged up to the last checkpoint is on disk."
     ["a model that is too large for the machine", "a limit of the shell (ulimit -v) or of a container"]
     ["go on with  signorini resume DIR  on a larger machine", "fewer unknowns, or linear elements", "linear = \"multigrid\""]
+
+    RANKS_PARTED "S0901" Internal "the processes of a run have parted"
+    "All processes that `mpirun` has started solve the same model, and compare what they have after every increment. One of them \
+     has failed, or has something else than the first one; all of them end. What had converged up to the last checkpoint is on disk. \
+     The exit code is that of the process that has failed, else 70."
+    ["a process has no memory left, or cannot read the case or the mesh", "other files, or another program, on one of the machines",
+     "processors that round differently", "a mistake of the program"]
+    ["what the process says that the message names", "the same program and the same files on all machines, of one kind",
+     "go on with  signorini resume DIR"]
 }
 
 #[cfg(test)]
@@ -622,6 +635,7 @@ mod tests {
                 "S06" => &[Class::Output, Class::Input],
                 "S07" => &[Class::Restart],
                 "S08" => &[Class::Limit],
+                "S09" => &[Class::Internal],
                 _ => &[],
             };
             assert!(allowed.contains(&code.class), "{}", code.id);

@@ -121,7 +121,8 @@ pub trait Log: Send {
     fn sync(&mut self) -> Result<(), FsError>;
 }
 
-/// A held lock file; dropping it releases the lock.
+/// A held lock file; dropping it releases the lock. By default it holds none.
+#[derive(Default)]
 pub struct Lock {
     release: Option<Box<dyn FnOnce() + Send>>,
 }

@@ -27,7 +27,10 @@ pub enum Event {
         title: String,
         /// The program's version.
         version: String,
-        /// Number of threads.
+        /// Number of processes, where there are several.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        ranks: Option<u64>,
+        /// Number of threads, of each process.
         threads: u64,
         /// Number of nodes.
         nodes: u64,
@@ -343,8 +346,11 @@ pub struct Summary {
     /// Wall time of each phase, in seconds.
     #[serde(deserialize_with = "nan::of_map")]
     pub time: BTreeMap<String, f64>,
-    /// Largest memory in use, in bytes.
+    /// Largest memory in use, in bytes; that of rank 0.
     pub memory_peak_bytes: u64,
+    /// The processes, where there were several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranks: Option<RanksSummary>,
     /// Number of unknowns.
     pub unknowns: u64,
     /// The program's version.
@@ -353,6 +359,15 @@ pub struct Summary {
     pub inputs: Vec<Input>,
     /// Warnings and errors, in order.
     pub diagnostics: Vec<DiagnosticSummary>,
+}
+
+/// The processes of a [`Summary`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RanksSummary {
+    /// How many there were.
+    pub count: u64,
+    /// The largest memory that any of them had in use, in bytes.
+    pub memory_peak_bytes: u64,
 }
 
 /// The heat of a [`Summary`].

@@ -3,7 +3,8 @@
 use super::findings::joined;
 use super::object::{self, Answer, Members};
 use super::options::{CaseOptions, FolderOption};
-use super::report::write;
+use super::ranks;
+use super::report::write_on;
 use clap::Args;
 use serde_json::{Value, json};
 use signorini::preview::{self, Preview};
@@ -32,11 +33,13 @@ pub struct Check {
 
 impl Check {
     pub fn execute(self) -> u8 {
+        ranks::enter();
         let files = Files {
             folder: self.folder.output.as_deref(),
             page: self.report.as_deref(),
         };
-        let looked = load(&self.case, &self.changes.reading()).and_then(|case| look(case, &files));
+        let loaded = ranks::all().agreed(load(&self.case, &self.changes.reading()));
+        let looked = loaded.and_then(|case| look(case, &files));
         object::print("check", looked, self.json)
     }
 }
@@ -76,6 +79,11 @@ fn look(loaded: Loaded, files: &Files<'_>) -> Result<Answer, Diagnostics> {
     let mut members = members(&model, &preview);
     members.insert("held_by_supports".into(), is_held.into());
     let mut lines = preview.lines.clone();
+    let ranks = ranks::all().size();
+    if ranks > 1 {
+        lines.push(format!("{ranks} ranks"));
+        members.insert("ranks".into(), json!(ranks));
+    }
     if is_held {
         lines.push("supports hold every body".to_owned());
     }
@@ -124,6 +132,10 @@ fn page(
     let units = &model.case.units.value;
     let bytes = signorini_report::check_page(title, units, grid, lines, &findings);
     write(path, &bytes)
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+    write_on(ranks::disk().as_ref(), path, bytes)
 }
 
 /// Sizes, bodies, contacts and cost, for machines; with the lines for people.

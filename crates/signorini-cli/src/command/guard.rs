@@ -1,7 +1,7 @@
 //! The last line of defence: an error of the program itself ends with exit code 70 and a text worth sending.
 
 use super::console::Console;
-use super::{exhausted, stack};
+use super::{exhausted, ranks, stack};
 use signorini::crash::{self, Crash};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
@@ -36,8 +36,11 @@ pub fn guarded(arguments: &[String], program: impl FnOnce() -> u8 + Send + 'stat
     match outcome {
         Ok(Ok(code)) => code,
         Ok(Err(_)) => {
+            let ranks = ranks::all();
+            // whatever the others do: this one says what has happened, and takes them along
+            ranks.fails_alone(crash::EXIT_CODE);
             let crash = seen.lock().unwrap_or_else(PoisonError::into_inner).take();
-            match crash {
+            let code = match crash {
                 Some(crash) if crash.message.contains(NO_THREAD) => {
                     exhausted::say("a thread could not be started");
                     exhausted::CODE
@@ -46,7 +49,9 @@ pub fn guarded(arguments: &[String], program: impl FnOnce() -> u8 + Send + 'stat
                     report(crash.as_ref(), arguments);
                     crash::EXIT_CODE
                 }
-            }
+            };
+            ranks.abort(code);
+            code
         }
         Err(error) => {
             exhausted::say(&format!("a thread could not be started: {error}"));
@@ -63,11 +68,17 @@ fn report(crash: Option<&Crash>, arguments: &[String]) {
         crash.map_or("a panic", |crash| crash.message.as_str())
     ));
     console.line(&format!(
-        "  signorini {} on {}-{}",
+        "  signorini {} on {}-{}{}",
         signorini::VERSION,
         std::env::consts::ARCH,
-        std::env::consts::OS
+        std::env::consts::OS,
+        ranks::here()
     ));
+    if ranks::all().rank() != 0 {
+        // rank 0 alone writes files
+        let trace = crash.map_or("", |crash| crash.backtrace.as_str());
+        return console.text(trace);
+    }
     let folders = [PathBuf::from("."), std::env::temp_dir()];
     let saved = crash.map(|crash| crash.save(&folders, arguments, &inputs(arguments)));
     console.line(&match saved {

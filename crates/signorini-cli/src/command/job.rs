@@ -5,6 +5,7 @@ use super::exit::WRONG_COMMAND;
 use super::findings::joined;
 use super::ndjson::Ndjson;
 use super::options::SolveOptions;
+use super::ranks;
 use super::signals::{Notice, Signals};
 use super::terminal::Terminal;
 use super::threads;
@@ -58,7 +59,7 @@ impl Job {
     /// Builds, solves, reports; returns the exit code.
     pub fn solve(self, options: &SolveOptions) -> u8 {
         let clock = Instant::now();
-        let mut model = match build(self.case, self.mesh) {
+        let mut model = match ranks::all().agreed(build(self.case, self.mesh)) {
             Ok(model) => model,
             Err(found) => return refused(&joined(self.warnings, found), options),
         };
@@ -79,6 +80,7 @@ impl Job {
         run.resume = self.resume;
         run.steps = (!options.steps.is_empty()).then_some(options.steps.len());
         run.strict = options.strict;
+        run.ranks = ranks::all();
         run.threads = self.threads;
         run.seconds = [self.read_seconds, clock.elapsed().as_secs_f64()];
         run.limits = Limits {
@@ -90,6 +92,7 @@ impl Job {
         self.signals.are_requests();
         drop(self.hold);
         let finished = solve(model, &run, options);
+        ranks::say_own(&finished.diagnostics);
         if options.timings {
             timings(&finished);
         }
@@ -122,7 +125,7 @@ fn solve(model: Model, run: &RunOptions, options: &SolveOptions) -> Finished {
 
 /// Reports why nothing is solved, and returns the exit code.
 pub fn refused(found: &Diagnostics, options: &SolveOptions) -> u8 {
-    Console::stderr().findings(found);
+    ranks::say(found);
     let code = found.exit_code().unwrap_or(3);
     if options.json {
         let mut out = Ndjson(Console::stdout());

@@ -23,6 +23,7 @@ mod ndjson;
 mod object;
 mod options;
 mod pages;
+mod ranks;
 mod report;
 mod resume;
 mod run;
@@ -129,9 +130,9 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Err(error) => return refused(&error),
         };
         match cli.verb {
-            Verb::Run(run) => run.execute(),
-            Verb::Resume(resume) => resume.execute(),
-            Verb::Check(check) => check.execute(),
+            Verb::Run(run) => ranks::end(run.execute()),
+            Verb::Resume(resume) => ranks::end(resume.execute()),
+            Verb::Check(check) => ranks::end(check.execute()),
             Verb::Init(init) => init.execute(),
             Verb::Demo(demo) => demo.execute(),
             Verb::Status(status) => status.execute(),

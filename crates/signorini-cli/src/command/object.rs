@@ -7,6 +7,7 @@
 //! Diagnostics are the objects of the event `diagnostic` of `run --json`. The exit code is the one without `--json`.
 
 use super::console::Console;
+use super::ranks;
 use serde_json::{Map, Value, json};
 use signorini::Diagnostics;
 use signorini::run::event_of;
@@ -45,7 +46,7 @@ pub fn print(command: &str, answer: Result<Answer, Diagnostics>, as_object: bool
             if as_object {
                 return object(command, code, &found, Members::new());
             }
-            Console::stderr().findings(&found);
+            ranks::say(&found);
             code
         }
     }

@@ -146,14 +146,18 @@ pub fn main_picture(folder: &Path, path: &Path) -> Result<PathBuf, Diagnostic> {
 }
 
 /// Writes a file, and the folder that it is in.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+    write_on(&RealFs, path, bytes)
+}
+
+/// As [`write`], on a disk.
+pub fn write_on(disk: &dyn Fs, path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    RealFs
-        .create_dir_all(folder)
-        .and_then(|()| RealFs.write_atomic(path, bytes))
+    disk.create_dir_all(folder)
+        .and_then(|()| disk.write_atomic(path, bytes))
         .map_err(|error| not_written(&error))
 }
 

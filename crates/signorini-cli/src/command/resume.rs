@@ -3,10 +3,11 @@
 use super::console::Console;
 use super::job::{Job, refused};
 use super::options::SolveOptions;
+use super::ranks;
 use super::signals::Signals;
 use clap::Args;
 use signorini::resume::{Stopped, stopped_and_held};
-use signorini_io::fs::{Lock, RealFs};
+use signorini_io::fs::Lock;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -23,7 +24,9 @@ impl Resume {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
         let signals = Signals::taken();
-        match stopped_and_held(&RealFs, &self.folder) {
+        ranks::enter();
+        let stopped = stopped_and_held(&*ranks::disk(), &self.folder);
+        match ranks::all().agreed(stopped) {
             Err(found) => refused(&found, &self.solve),
             Ok(found) => go_on(found, self.folder, signals, clock, &self.solve),
         }

@@ -3,12 +3,12 @@
 use super::console::Console;
 use super::job::{Job, refused};
 use super::options::{CaseOptions, FolderOption, SolveOptions};
+use super::ranks;
 use super::signals::Signals;
 use super::threads;
 use clap::Args;
 use signorini::load_case;
 use signorini::resume::stopped_case;
-use signorini_io::fs::RealFs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -44,20 +44,21 @@ impl Run {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
         let signals = Signals::taken();
+        ranks::enter();
         let mut reading = self.changes.reading();
         if !self.format.is_empty() {
             reading
                 .set
                 .push(("output.format".into(), format!("{:?}", self.format)));
         }
-        let opened = match load_case(&self.case, &reading) {
+        let opened = match ranks::all().agreed(load_case(&self.case, &reading)) {
             Ok(opened) => opened,
             Err(found) => return refused(&found, &self.solve),
         };
         if self.resume {
             let folder = self.folder.output.clone();
             let folder = folder.unwrap_or_else(|| opened.source.output_folder());
-            match stopped_case(&RealFs, &folder, &opened.source) {
+            match ranks::all().agreed(stopped_case(&*ranks::disk(), &folder, &opened.source)) {
                 Err(found) => return refused(&found, &self.solve),
                 Ok(Some(found)) => {
                     let code =
@@ -71,7 +72,7 @@ impl Run {
             }
         }
         let nthread = threads::make(self.solve.threads, opened.case.solver.threads);
-        let loaded = match opened.with_mesh() {
+        let loaded = match ranks::all().agreed(opened.with_mesh()) {
             Ok(loaded) => loaded,
             Err(found) => return refused(&found, &self.solve),
         };
@@ -100,7 +101,8 @@ impl Run {
 
     /// Writes the page of a run that ended with this exit code, where it is asked for, and returns the code.
     fn with_report(&self, folder: &Path, code: u8) -> u8 {
-        match self.report {
+        // the page is made of what is on the disk
+        match self.report && ranks::all().rank() == 0 {
             true => super::report::after_run(folder, code, self.solve.quiet || self.solve.json),
             false => code,
         }

@@ -1,6 +1,7 @@
 //! The threads of a run: one pool, made once.
 
-use signorini::threads::{STACK, count};
+use super::ranks;
+use signorini::threads::{STACK, count_of_one};
 use std::thread::{sleep, yield_now};
 use std::time::{Duration, Instant};
 
@@ -11,9 +12,9 @@ const ALERT: Duration = Duration::from_millis(1);
 const REST: [Duration; 2] = [Duration::from_micros(50), Duration::from_millis(1)];
 
 /// Makes the pool and returns its size: as many threads as the command line, else the case, else
-/// `OMP_NUM_THREADS`, else the machine says.
+/// `OMP_NUM_THREADS`, else the machine says, whose cores are shared among the ranks on it.
 pub fn make(command_line: Option<u64>, case: Option<u64>) -> usize {
-    let wanted = count(command_line.or(case));
+    let wanted = count_of_one(command_line.or(case), ranks::on_this_machine());
     // a second pool is refused: then the first one is what there is; the calling thread works, too, so that nothing is
     // handed over where there is only one
     let made = rayon::ThreadPoolBuilder::new()

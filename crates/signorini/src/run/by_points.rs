@@ -32,6 +32,7 @@ pub fn solve(mut model: Model, options: &RunOptions, listener: &mut dyn Listener
     drop(model);
     let loaded = load_again(again.source.clone());
     let built = loaded.and_then(|loaded| build_with(loaded.case, loaded.mesh, &again.own));
+    let built = options.ranks.agreed(built);
     let Ok(mut model) = built else {
         return finished;
     };

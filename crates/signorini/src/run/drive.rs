@@ -23,7 +23,9 @@ use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::fs::{BehindFs, FsError};
 use signorini_io::writers::frd::FrdError;
-use signorini_io::writers::json::{DiagnosticSummary, Event, Expectation, StepSummary, Summary};
+use signorini_io::writers::json::{
+    DiagnosticSummary, Event, Expectation, RanksSummary, StepSummary, Summary,
+};
 use signorini_io::writers::pvd::Pvd;
 use signorini_mechanics::solve::{LinearSeconds, Outcome, RunError, Stepper};
 use signorini_mechanics::system::ArchiveError;
@@ -43,21 +45,23 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
         Ok(prepared) => prepared,
         Err(found) => return refuse(found, listener),
     };
+    let ranks = &options.ranks;
+    if let Err(parted) = ranks.same_input(&options.source.hash()) {
+        return refuse(parted.diagnostic().into(), listener);
+    }
+    let fs = ranks.files(|| Arc::clone(&options.fs));
     let claim = match (options.resume, options.fresh) {
         (true, _) => Claim::Resume,
         (false, true) => Claim::Fresh,
         (false, false) => Claim::Start,
     };
-    let tree = match Tree::claim(&options.fs, &options.folder, &options.source, claim) {
+    let tree = match Tree::claim(&fs, &options.folder, &options.source, claim) {
         Ok(tree) => tree,
         Err(found) => return refuse(found, listener),
     };
     let checkpoints = Checkpoints::new(&tree.path("checkpoint"), options.source.hash())
         .keeping(model.case.checkpoint.keep);
-    let from = match options
-        .resume
-        .then(|| checkpoints.latest_good(options.fs.as_ref()))
-    {
+    let from = match options.resume.then(|| checkpoints.latest_good(fs.as_ref())) {
         None => None,
         Some(Ok(checkpoint)) => Some(checkpoint),
         Some(Err(error)) => return refuse(bad_checkpoint(&error).into(), listener),
@@ -142,7 +146,8 @@ fn setting(
     let formats = Formats::new(&model.case.output);
     let frd = || (format!("{}.frd", model.name), model.case.title.clone());
     let setting = Setting {
-        fs: Arc::new(BehindFs::new(Arc::clone(&options.fs))),
+        fs: (options.ranks).files(|| Arc::new(BehindFs::new(Arc::clone(&options.fs)))),
+        ranks: Arc::clone(&options.ranks),
         tree,
         name: model.name.clone(),
         mesh: Arc::clone(&model.mesh),
@@ -265,6 +270,7 @@ impl Run<'_, '_> {
                     stepper = stepper.restarted(&mut self.model.system, settings, &solution)?;
                 }
             }
+            self.recorder.agree_to_stop(self.recorder.stop);
             if self.recorder.error.is_some() {
                 // who asks sees the failure of the disk first
                 return Ok(Ending::Solved);
@@ -279,7 +285,10 @@ impl Run<'_, '_> {
                 }
                 Some(watch) => match self.run_watched(watch, &mut stepper) {
                     Ok(outcome) => outcome,
-                    Err(found) => return Ok(Ending::NotBuilt(found)),
+                    Err(found) => {
+                        self.fails(found.exit_code());
+                        return Ok(Ending::NotBuilt(found));
+                    }
                 },
             };
             self.linear += stepper.take_linear_seconds();
@@ -320,13 +329,20 @@ impl Run<'_, '_> {
                 .all(|step| step.cutbacks == 0);
         // another method of contact finds no more modes
         self.in_trouble = !(all_converged || matches!(error, RunError::Modes { .. }));
-        self.recorder.gave_up(error);
-        self.recorder.failed(&self.model.system, stepper);
         let saved = failure::Saved {
             increments: self.recorder.counts.increments,
             folder: self.options.folder.display().to_string(),
         };
-        Ending::Failed(failure::message(error, self.model, &saved))
+        let message = failure::message(error, self.model, &saved);
+        self.fails(Some(message.code.class.exit_code()));
+        self.recorder.gave_up(error);
+        self.recorder.failed(&self.model.system, stepper);
+        Ending::Failed(message)
+    }
+
+    /// Tells other ranks of a fault; where they do not have it, this one comes to its end without them.
+    fn fails(&self, exit_code: Option<u8>) {
+        let _ = self.options.ranks.fails(exit_code.unwrap_or(5));
     }
 
     /// Judges, reports and writes how it ended.
@@ -444,11 +460,22 @@ impl Run<'_, '_> {
             .map(|(phase, seconds)| (phase.to_owned(), seconds))
             .into(),
             memory_peak_bytes: memory_peak(),
+            ranks: self.ranks(),
             unknowns: nunknown as u64,
             version: crate::VERSION.into(),
             inputs: self.options.source.inputs.clone(),
             ..Summary::default()
         }
+    }
+
+    /// The processes of the run, where there are several, with the largest memory that any of them has had.
+    fn ranks(&self) -> Option<RanksSummary> {
+        let ranks = &self.options.ranks;
+        let largest = ranks.most(memory_peak());
+        (!ranks.is_alone()).then(|| RanksSummary {
+            count: ranks.size() as u64,
+            memory_peak_bytes: largest.unwrap_or_default(),
+        })
     }
 
     /// Writes the ending into summary, events and log, and reports it.
@@ -465,7 +492,10 @@ impl Run<'_, '_> {
         let event = loop {
             let failed = self.recorder.error.take();
             if let Some(error) = &failed {
-                verdict = Verdict::new(6, "not written");
+                verdict = match self.options.ranks.parted() {
+                    Some(parted) => Verdict::new(parted.exit_code(), "a rank failed"),
+                    None => Verdict::new(6, "not written"),
+                };
                 let one = self.not_written(error);
                 self.recorder
                     .tell_listener(&event_of(&one), Detail::Finding(&one));
@@ -571,7 +601,10 @@ impl Run<'_, '_> {
     }
 
     fn not_written(&self, error: &OutputError) -> Diagnostic {
-        let mut one = error.diagnostic();
+        let mut one = match self.options.ranks.parted() {
+            Some(parted) => parted.diagnostic(),
+            None => error.diagnostic(),
+        };
         let setting = &self.recorder.setting;
         let listed = Pvd::read(setting.fs.as_ref(), &setting.tree.path("results.pvd"));
         let listed = listed.map_or(0, |list| list.entries().len());

@@ -1,5 +1,6 @@
 //! What can go wrong with the files of a run, as messages.
 
+use crate::ranks::Parted;
 use signorini_io::checkpoint::{ArchiveError, CheckpointError};
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_io::fs::FsError;
@@ -30,6 +31,9 @@ pub enum OutputError {
     /// A checkpoint that cannot be put together.
     #[error(transparent)]
     Archive(#[from] ArchiveError),
+    /// Other processes of the run.
+    #[error(transparent)]
+    Parted(#[from] Parted),
 }
 
 impl OutputError {
@@ -48,6 +52,9 @@ impl OutputError {
     /// The message to the user; exit code 6.
     #[must_use]
     pub fn diagnostic(&self) -> Diagnostic {
+        if let Self::Parted(parted) = self {
+            return parted.diagnostic();
+        }
         let one = Diagnostic::error(&codes::NOT_WRITTEN, self.to_string());
         match self.fs() {
             Some(error) => one.help(error.help()),

@@ -4,6 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+/// More than any signal has.
+const BEHIND_SIGNALS: u64 = 1 << 32;
+
 /// The limits of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Limits {
@@ -38,6 +41,27 @@ impl Stop {
             Self::Time => 8,
             Self::Listener => 130,
             Self::Steps => 0,
+        }
+    }
+
+    /// A number for it: reasons that come first are smaller.
+    pub(crate) fn to_number(self) -> u64 {
+        match self {
+            Self::Signal(number) => number as u64,
+            Self::Time => BEHIND_SIGNALS,
+            Self::Listener => BEHIND_SIGNALS + 1,
+            Self::Steps => BEHIND_SIGNALS + 2,
+        }
+    }
+
+    /// The reason that a number stands for.
+    pub(crate) fn from_number(number: u64) -> Option<Self> {
+        match number.checked_sub(BEHIND_SIGNALS) {
+            None => usize::try_from(number).ok().map(Self::Signal),
+            Some(0) => Some(Self::Time),
+            Some(1) => Some(Self::Listener),
+            Some(2) => Some(Self::Steps),
+            Some(_) => None,
         }
     }
 

@@ -65,6 +65,7 @@ pub use volume::Volume;
 
 use crate::load::Source;
 use crate::own::Own;
+use crate::ranks::LockStep;
 use crate::setup::Model;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::{Fs, RealFs};
@@ -137,8 +138,10 @@ pub struct RunOptions {
     pub warnings: Diagnostics,
     /// What stops it from outside.
     pub limits: Limits,
-    /// The disk.
+    /// The disk; that of rank 0.
     pub fs: Arc<dyn Fs>,
+    /// The processes that all run this, with listeners of one kind.
+    pub ranks: Arc<LockStep>,
     /// How many threads there are, for the records.
     pub threads: usize,
     /// Seconds that reading and building took, for the records.
@@ -160,6 +163,7 @@ impl RunOptions {
             warnings: Diagnostics::default(),
             limits: Limits::default(),
             fs: Arc::new(RealFs),
+            ranks: Arc::default(),
             threads: rayon::current_num_threads(),
             seconds: [0.0; 2],
         }

@@ -62,7 +62,9 @@ pub struct Facts {
     pub nunknown: usize,
     /// Bodies with their remedies against locking.
     pub remedies: Vec<String>,
-    /// Number of threads.
+    /// Number of processes.
+    pub ranks: usize,
+    /// Number of threads, of each process.
     pub threads: usize,
     /// Seconds for reading, and for building.
     pub seconds: [f64; 2],

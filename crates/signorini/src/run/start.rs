@@ -95,6 +95,7 @@ pub fn facts(model: &Model, start: &Start, options: &RunOptions) -> Facts {
         gap_min: gaps.reduce(f64::min),
         nunknown: start.nunknown,
         remedies: model.remedies(),
+        ranks: options.ranks.size(),
         threads: options.threads,
         seconds: options.seconds,
         length: units.split('-').next().unwrap_or_default().to_owned(),

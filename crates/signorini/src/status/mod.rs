@@ -168,7 +168,9 @@ impl Status {
         match (self.state, &self.summary) {
             (State::Running, _) => {
                 let process = self.process.as_deref().unwrap_or_default();
-                format!("running: process {process}{part}")
+                let ranks = self.progress.ranks;
+                let ranks = ranks.map_or_else(String::new, |n| format!(" of {n} ranks"));
+                format!("running: process {process}{ranks}{part}")
             }
             (State::Interrupted, Some(summary)) => format!(
                 "{} (exit code {}): stopped on request",
@@ -241,6 +243,14 @@ fn ending(summary: &Summary) -> Vec<String> {
             plural(step.increments as usize, "increment"),
             plural(step.iterations as usize, "iteration"),
             plural(step.cutbacks as usize, "cut-back")
+        ));
+    }
+    if let Some(ranks) = &summary.ranks {
+        let [first, most] = [summary.memory_peak_bytes, ranks.memory_peak_bytes];
+        let [first, most] = [first, most].map(|bytes| short(bytes as f64 / 1e6));
+        lines.push(format!(
+            "{} ranks: rank 0 had {first} MB of memory, the largest {most} MB",
+            ranks.count
         ));
     }
     for (name, contact) in &summary.contacts {

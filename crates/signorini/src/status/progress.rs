@@ -15,6 +15,9 @@ pub struct Progress {
     pub time: f64,
     /// Duration of all steps, where the run says so.
     pub duration: Option<f64>,
+    /// The processes, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ranks: Option<u64>,
     /// Converged increments of all steps.
     pub increments: u64,
     /// Linear solves, those of failed attempts too.
@@ -72,6 +75,7 @@ pub struct Saved {
 enum Line {
     Start {
         duration: Option<f64>,
+        ranks: Option<u64>,
     },
     Diagnostic {
         severity: String,
@@ -150,7 +154,8 @@ impl Progress {
 
     fn take(&mut self, line: Line) {
         match line {
-            Line::Start { duration } => {
+            Line::Start { duration, ranks } => {
+                self.ranks = ranks;
                 // how an earlier part of the run ended says nothing about this one
                 (self.duration, self.attempt, self.error) = (duration, None, None);
             }

@@ -146,6 +146,7 @@ fn events_of_a_run() -> Vec<(Event, &'static str)> {
                 case: text(),
                 title: text(),
                 version: text(),
+                ranks: None,
                 threads: 2,
                 nodes: 8,
                 elements: 1,

@@ -4,6 +4,7 @@ mod letters;
 
 pub use letters::ascii;
 
+use super::ranks;
 use signorini::Diagnostics;
 use std::io::{IsTerminal, Write};
 
@@ -26,6 +27,8 @@ pub struct Console {
 enum Stream {
     Out,
     Error,
+    /// Of a process for which another one speaks.
+    Nowhere,
 }
 
 impl Console {
@@ -39,7 +42,11 @@ impl Console {
         Self::new(Stream::Error, std::io::stderr().is_terminal())
     }
 
-    fn new(stream: Stream, terminal: bool) -> Self {
+    fn new(stream: Stream, is_terminal: bool) -> Self {
+        let (stream, terminal) = match ranks::speaks() {
+            true => (stream, is_terminal),
+            false => (Stream::Nowhere, false),
+        };
         let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
         Self {
@@ -69,6 +76,7 @@ impl Console {
         match self.stream {
             Stream::Out => written(&mut std::io::stdout().lock()),
             Stream::Error => written(&mut std::io::stderr().lock()),
+            Stream::Nowhere => {}
         }
     }
 
@@ -103,6 +111,7 @@ impl Console {
         let term = match self.stream {
             Stream::Out => console::Term::stdout(),
             Stream::Error => console::Term::stderr(),
+            Stream::Nowhere => return None,
         };
         let asked = term.size_checked().map(|(_, columns)| usize::from(columns));
         Some(asked.filter(|width| *width > 0).unwrap_or(USUAL_WIDTH))

@@ -182,7 +182,11 @@ fn start(facts: &Facts) -> Vec<Line> {
     if facts.ncontact > 0 {
         head += &format!(" · {}", plural(facts.ncontact, "pair"));
     }
-    head += &format!("  ·  {}", plural(facts.threads, "thread"));
+    head += "  ·  ";
+    if facts.ranks > 1 {
+        head += &format!("{} of ", plural(facts.ranks, "rank"));
+    }
+    head += &plural(facts.threads, "thread");
     let [read, built] = facts.seconds;
     let mut ready = format!(
         "✓ read {read:.2} s   ✓ built {built:.2} s: {}",

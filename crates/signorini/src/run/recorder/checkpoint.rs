@@ -23,10 +23,11 @@ impl Recorder<'_> {
             .setting
             .checkpoint_increments
             .is_some_and(|n| since >= n);
-        let by_clock = self
-            .setting
-            .checkpoint_wall
-            .is_some_and(|t| at.elapsed() >= t);
+        let by_clock = self.setting.checkpoint_wall.is_some_and(|t| {
+            let own = at.elapsed() >= t;
+            // ranks that have parted save nothing more
+            self.setting.ranks.any(own).unwrap_or(false)
+        });
         by_count || by_clock
     }
 

@@ -13,6 +13,7 @@ pub use files::Opened;
 
 use growing::Files;
 
+use crate::ranks::LockStep;
 use crate::run::audit::Audit;
 use crate::run::closure::Closure;
 use crate::run::contact_surface;
@@ -49,6 +50,7 @@ use std::time::{Duration, Instant};
 /// What stays the same during a run.
 pub struct Setting {
     pub fs: Arc<dyn Fs>,
+    pub ranks: Arc<LockStep>,
     pub tree: Tree,
     pub name: String,
     pub mesh: Arc<Mesh>,
@@ -172,6 +174,7 @@ impl Recorder<'_> {
             case: self.setting.name.clone(),
             title: title.to_owned(),
             version: crate::VERSION.into(),
+            ranks: (facts.ranks > 1).then_some(facts.ranks as u64),
             threads: facts.threads as u64,
             nodes: facts.nnode as u64,
             elements: facts.cells.iter().map(|(_, n)| *n as u64).sum(),
@@ -328,6 +331,16 @@ impl Recorder<'_> {
         }
     }
 
+    /// Stops where this rank, or another one, has a reason to.
+    pub fn agree_to_stop(&mut self, own: Option<Stop>) {
+        match self.setting.ranks.stop(own) {
+            Ok(stop) => self.stop = stop,
+            Err(parted) => {
+                self.error.get_or_insert(parted.into());
+            }
+        }
+    }
+
     /// Whether an increment is the last one of the steps that were asked for.
     fn is_behind_steps(&self, record: &IncrementRecord) -> bool {
         let (time, duration) = record.step_time;
@@ -386,20 +399,22 @@ impl Observer for Recorder<'_> {
             } => self.solver(*step, *increment, note),
             Happening::Vibrations { step, time, found } => self.vibrations(*step, *time, found),
             Happening::Increment { record, frame } => {
+                if let Err(parted) = self.setting.ranks.same_state(record, frame) {
+                    self.error.get_or_insert(parted.into());
+                    return Flow::Stop;
+                }
                 self.increment(record, frame);
                 if self.is_behind_steps(record) {
                     self.stop.get_or_insert(Stop::Steps);
                 }
                 if self.is_due() {
-                    self.stop = self.stop.or_else(|| self.setting.limits.reached());
+                    self.agree_to_stop(self.stop.or_else(|| self.setting.limits.reached()));
                     return Flow::Stop;
                 }
             }
             _ => {}
         }
-        if self.stop.is_none() {
-            self.stop = self.setting.limits.reached();
-        }
+        self.agree_to_stop(self.stop.or_else(|| self.setting.limits.reached()));
         if self.stop.is_some() || self.error.is_some() {
             Flow::Stop
         } else {
