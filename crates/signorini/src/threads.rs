@@ -22,6 +22,14 @@ pub fn count(wanted: Option<u64>) -> usize {
 }
 
 /// As [`count`], for one of some processes that share the cores of this machine: each of them has at least one.
+///
+/// # Example
+/// ```
+/// use signorini::threads::{count, count_of_one};
+///
+/// assert_eq!(count_of_one(Some(3), 2), 3);
+/// assert!((1..=count(None)).contains(&count_of_one(None, 2)));
+/// ```
 #[must_use]
 pub fn count_of_one(wanted: Option<u64>, processes: usize) -> usize {
     let environment = || std::env::var("OMP_NUM_THREADS").ok()?.trim().parse().ok();

@@ -108,6 +108,33 @@ mod tests {
     /// Names the test that is to panic, in a process of its own: a hook for panics belongs to the whole process.
     const INNER: &str = "SIGNORINI_TEST_OF_CRASHES";
 
+    #[cfg(feature = "mpi")]
+    #[test]
+    fn a_panic_of_one_rank_ends_all_with_exit_code_70() {
+        if std::env::var_os(INNER).is_some() {
+            ranks::enter();
+            let code = guarded(&[], || match ranks::all().rank() {
+                1 => panic!("made on purpose"),
+                _ => ranks::end(0),
+            });
+            std::process::exit(code.into());
+        }
+        let name = "a_panic_of_one_rank_ends_all_with_exit_code_70";
+        let output = Command::new("mpirun")
+            .args(["--oversubscribe", "-n", "3"])
+            .arg(std::env::current_exe().unwrap())
+            .args([name, "--nocapture"])
+            .env(INNER, "yes")
+            .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
+            .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(70), "{said}");
+        assert_eq!(said.matches("made on purpose").count(), 1, "{said}");
+        assert!(said.contains("on rank 1 of 3"), "{said}");
+    }
+
     #[test]
     fn a_panic_ends_with_exit_code_70_and_a_file_to_send() {
         if std::env::var_os(INNER).is_some() {

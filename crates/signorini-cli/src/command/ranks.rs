@@ -6,7 +6,7 @@
 //!                              disk: rank 0 writes
 //! ```
 //!
-//! Commands that do not enter are alone, whatever started them.
+//! Commands that do not enter are alone, whatever started them; so are processes that nothing like `mpirun` has started.
 
 use super::console::Console;
 use signorini::Diagnostics;
@@ -16,9 +16,22 @@ use std::sync::{Arc, OnceLock};
 
 static RANKS: OnceLock<Arc<LockStep>> = OnceLock::new();
 
+/// What programs that start several processes tell each of them: OpenMPI, MPICH and others by PMI, Slurm.
+const STARTED: [&str; 6] = [
+    "OMPI_COMM_WORLD_SIZE",
+    "PMIX_RANK",
+    "PMI_RANK",
+    "PMI_SIZE",
+    "MPI_LOCALNRANKS",
+    "SLURM_PROCID",
+];
+
 /// Joins the processes that this one was started with. To be called when signals are taken: MPI has threads of its own.
 pub fn enter() {
-    RANKS.get_or_init(|| Arc::new(LockStep::new(signorini_ranks::world())));
+    // MPI would start a daemon for a process by itself, and needs files outside of a folder that it is confined to
+    if STARTED.iter().any(|name| std::env::var_os(name).is_some()) {
+        RANKS.get_or_init(|| Arc::new(LockStep::new(signorini_ranks::world())));
+    }
 }
 
 /// The ranks of this process.

@@ -13,7 +13,7 @@ is the exit code of a run that ends on it as an error. Many codes are warnings o
 Written from the codes of the program by a test, which fails where the two differ.
 ";
 
-const GROUPS: [(&str, &str); 8] = [
+const GROUPS: [(&str, &str); 9] = [
     ("S01", "The text of a case or deck"),
     ("S02", "References and meshes"),
     ("S03", "The model as a whole"),
@@ -22,6 +22,7 @@ const GROUPS: [(&str, &str); 8] = [
     ("S06", "Writing results"),
     ("S07", "Going on with a run"),
     ("S08", "Limits"),
+    ("S09", "Several processes"),
 ];
 
 /// Text of a message as Markdown: placeholders between angle brackets are no tags, asterisks no emphasis.

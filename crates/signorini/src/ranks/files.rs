@@ -238,7 +238,7 @@ impl Told for Option<SystemTime> {
 /// A fault of the disk of rank 0, as others learn of it.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Fault {
-    kind: Kind,
+    kind: Sort,
     action: usize,
     path: PathBuf,
     root: PathBuf,
@@ -249,7 +249,7 @@ struct Fault {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-enum Kind {
+enum Sort {
     DiskFull,
     Denied,
     NotFound,
@@ -286,7 +286,7 @@ impl Fault {
                 source,
                 ..
             } => Self {
-                kind: Kind::DiskFull,
+                kind: Sort::DiskFull,
                 action: of_action(action).unwrap_or(0),
                 sizes: [*needed, 0],
                 number: source.raw_os_error(),
@@ -298,10 +298,10 @@ impl Fault {
             | FsError::WrongKind { action, source, .. }
             | FsError::Other { action, source, .. } => Self {
                 kind: match error {
-                    FsError::Denied { .. } => Kind::Denied,
-                    FsError::NotFound { .. } => Kind::NotFound,
-                    FsError::WrongKind { .. } => Kind::WrongKind,
-                    _ => Kind::Other,
+                    FsError::Denied { .. } => Sort::Denied,
+                    FsError::NotFound { .. } => Sort::NotFound,
+                    FsError::WrongKind { .. } => Sort::WrongKind,
+                    _ => Sort::Other,
                 },
                 action: of_action(action).unwrap_or(0),
                 number: source.raw_os_error(),
@@ -309,17 +309,17 @@ impl Fault {
                 ..plain
             },
             FsError::Locked { .. } => Self {
-                kind: Kind::Locked,
+                kind: Sort::Locked,
                 ..plain
             },
             FsError::Outside { action, root, .. } => Self {
-                kind: Kind::Outside,
+                kind: Sort::Outside,
                 action: of_action(action).unwrap_or(0),
                 root: root.clone(),
                 ..plain
             },
             FsError::TooShort { have, keep, .. } => Self {
-                kind: Kind::TooShort,
+                kind: Sort::TooShort,
                 sizes: [*have, *keep],
                 ..plain
             },
@@ -343,39 +343,39 @@ impl Fault {
         };
         let (path, [first, second]) = (self.path, self.sizes);
         match self.kind {
-            Kind::DiskFull => FsError::DiskFull {
+            Sort::DiskFull => FsError::DiskFull {
                 action,
                 path,
                 needed: first,
                 source,
             },
-            Kind::Locked => FsError::Locked { path },
-            Kind::Outside => FsError::Outside {
+            Sort::Locked => FsError::Locked { path },
+            Sort::Outside => FsError::Outside {
                 action,
                 path,
                 root: self.root,
             },
-            Kind::TooShort => FsError::TooShort {
+            Sort::TooShort => FsError::TooShort {
                 path,
                 have: first,
                 keep: second,
             },
-            Kind::Denied => FsError::Denied {
+            Sort::Denied => FsError::Denied {
                 action,
                 path,
                 source,
             },
-            Kind::NotFound => FsError::NotFound {
+            Sort::NotFound => FsError::NotFound {
                 action,
                 path,
                 source,
             },
-            Kind::WrongKind => FsError::WrongKind {
+            Sort::WrongKind => FsError::WrongKind {
                 action,
                 path,
                 source,
             },
-            Kind::Other => FsError::Other {
+            Sort::Other => FsError::Other {
                 action,
                 path,
                 source,
