@@ -122,7 +122,7 @@ pub const SOLVERS: &[SolverEntry] = &[
 /// The solver that chooses for itself.
 fn automatic() -> Box<dyn LinearSolver> {
     #[cfg(feature = "mpi")]
-    if signorini_ranks::world().size() > 1 {
+    if signorini_ranks::together().size() > 1 {
         return Box::new(Petsc::new());
     }
     Box::new(Multigrid::from_sizes(MULTIGRID_FROM))

@@ -107,5 +107,16 @@ pub fn world() -> &'static dyn Ranks {
     &Alone
 }
 
+/// The processes that compute together: those of [`world`] once it has been called, before that this one alone.
+///
+/// # Example
+/// ```
+/// assert_eq!(signorini_ranks::together().size(), 1);
+/// ```
+#[cfg(not(feature = "mpi"))]
+pub fn together() -> &'static dyn Ranks {
+    &Alone
+}
+
 #[cfg(feature = "mpi")]
-pub use mpi::world;
+pub use mpi::{together, world};

@@ -33,6 +33,9 @@ struct World {
     size: usize,
 }
 
+/// The processes, once they have been entered; `None` where MPI cannot be.
+static WORLD: OnceLock<Option<World>> = OnceLock::new();
+
 /// The processes that this one was started with: those of `mpirun`, or it alone where MPI cannot be entered.
 ///
 /// The first call enters MPI, which is left when the process ends in order.
@@ -43,7 +46,6 @@ struct World {
 /// assert_eq!((signorini_ranks::world().rank(), signorini_ranks::world().size()), (0, 1));
 /// ```
 pub fn world() -> &'static dyn Ranks {
-    static WORLD: OnceLock<Option<World>> = OnceLock::new();
     let entered = WORLD.get_or_init(|| {
         let _alone = alone();
         let (mut rank, mut size) = (0, 1);
@@ -58,6 +60,19 @@ pub fn world() -> &'static dyn Ranks {
     match entered {
         Some(world) => world,
         None => &Alone,
+    }
+}
+
+/// The processes that compute together: those of [`world`] once it has been called, before that this one alone.
+///
+/// # Example
+/// ```
+/// assert_eq!(signorini_ranks::together().size(), 1);
+/// ```
+pub fn together() -> &'static dyn Ranks {
+    match WORLD.get() {
+        Some(Some(world)) => world,
+        _ => &Alone,
     }
 }
 
