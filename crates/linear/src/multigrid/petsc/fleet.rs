@@ -16,7 +16,7 @@ use crate::norm::largest;
 use crate::problem::{Kept, Values};
 use crate::residual::Residual;
 use crate::solver::{Note, SolveReport, Why};
-use signorini_ranks::{Ranks, RanksError, world};
+use signorini_ranks::{Ranks, RanksError, agree, world};
 
 /// The part of the springs of multipliers that may be other ones before there is a new hierarchy.
 const TOLERATED: f64 = 0.5;
@@ -151,7 +151,9 @@ impl Fleet {
             self.share.set_operator(&self.operator.rows)?;
             self.is_placed = true;
         }
-        match self.block.update(kept, values) {
+        let outcome = self.block.update(kept, values);
+        self.agree_on(&outcome)?;
+        match outcome {
             Ok(()) => {}
             Err(LinearError::Singular { .. }) => {
                 let why = Why::Interface;
@@ -164,6 +166,25 @@ impl Fleet {
         self.ask(kept)?;
         notes.extend(self.renew(kept, values)?);
         Ok(true)
+    }
+
+    /// Checks that all ranks have come to the same end of what each does by itself: memory may have ended on one.
+    fn agree_on(&self, outcome: &Result<(), LinearError>) -> Result<(), LinearError> {
+        let kind = match outcome {
+            Ok(()) => 0,
+            Err(LinearError::Singular { .. }) => 1,
+            Err(_) => 2,
+        };
+        match agree(self.ranks, kind) {
+            Ok(true) => Ok(()),
+            Ok(false) if kind == 2 => outcome.clone(),
+            Ok(false) => Err(LinearError::Library {
+                name: "a solver on another rank",
+                code: kind as i32,
+                detail: 0,
+            }),
+            Err(error) => Err(library(&error)),
+        }
     }
 
     /// Lets the library know which entries the block needs.

@@ -39,6 +39,8 @@ static const char *const OPTIONS[][2] = {
     {"-signorini_pc_gamg_esteig_ksp_type", "cg"},
     {"-signorini_pc_gamg_esteig_ksp_max_it", "10"},
     {"-signorini_pc_gamg_use_sa_esteig", "true"},
+    /* the default adds up what comes from other ranks as it comes: other bits every time, from three ranks on */
+    {"-matptap_via", "allatonce"},
     {"-signorini_pc_mg_type", "multiplicative"},
     {"-signorini_pc_mg_cycle_type", "v"},
     {"-signorini_mg_levels_ksp_type", "chebyshev"},
