@@ -10,7 +10,7 @@
 
 use super::console::Console;
 use signorini::Diagnostics;
-use signorini::ranks::LockStep;
+use signorini::ranks::{LockStep, disk_of_first};
 use signorini_io::fs::{Fs, RealFs};
 use std::sync::{Arc, OnceLock};
 
@@ -46,7 +46,7 @@ pub fn speaks() -> bool {
 
 /// The disk, that of rank 0; all ranks make the same calls.
 pub fn disk() -> Arc<dyn Fs> {
-    all().files(|| Arc::new(RealFs))
+    disk_of_first(&all(), || Arc::new(RealFs))
 }
 
 /// How many ranks share the cores of this machine: as the program that has started them says, else all.

@@ -3,7 +3,7 @@
 //! Rank 0 acts; the meeting that follows tells whether that went well, and what was read. So a disk that is full, or a file that
 //! is torn, is the same fault on every rank, at the same call.
 
-use super::{LockStep, NOTHING};
+use super::lock_step::{LockStep, NOTHING};
 use serde::{Deserialize, Serialize};
 use signorini_io::fs::{Action, Fs, FsError, Lock, Log};
 use std::io;
@@ -11,19 +11,40 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+/// What the disk of rank 0 says, for all ranks: it alone reads and writes there. All ranks make the same calls, in the same order.
+/// `make` is the disk, for the ranks that have one.
+///
+/// # Example
+/// ```
+/// use signorini::ranks::{LockStep, disk_of_first};
+/// use signorini_io::fs::MemoryFs;
+/// use std::sync::Arc;
+///
+/// let alone = Arc::new(LockStep::default());
+/// let disk = disk_of_first(&alone, || Arc::new(MemoryFs::default()));
+/// disk.write("a.csv".as_ref(), b"time\n")?;
+/// assert!(disk.exists("a.csv".as_ref())?);
+/// # Ok::<(), signorini_io::fs::FsError>(())
+/// ```
+#[must_use]
+pub fn disk_of_first(ranks: &Arc<LockStep>, make: impl FnOnce() -> Arc<dyn Fs>) -> Arc<dyn Fs> {
+    match ranks.is_alone() {
+        true => make(),
+        false => Arc::new(RanksFs {
+            ranks: Arc::clone(ranks),
+            disk: (ranks.rank() == 0).then(make),
+        }),
+    }
+}
+
 /// The disk of rank 0.
-pub(super) struct RanksFs {
+struct RanksFs {
     ranks: Arc<LockStep>,
     /// On rank 0.
     disk: Option<Arc<dyn Fs>>,
 }
 
 impl RanksFs {
-    pub fn new(ranks: Arc<LockStep>, make: impl FnOnce() -> Arc<dyn Fs>) -> Self {
-        let disk = (ranks.rank() == 0).then(make);
-        Self { ranks, disk }
-    }
-
     fn ask<T: Told>(
         &self,
         action: Action,

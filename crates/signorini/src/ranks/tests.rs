@@ -1,18 +1,19 @@
 //! Whole runs on ranks that are threads, and each kind of meeting.
 
-use super::*;
+use super::lock_step::NOTHING;
+use super::{LockStep, files};
 use crate::load::Source;
-use crate::run::{Finished, Limits, RunOptions, run};
+use crate::run::{Finished, Limits, RunOptions, Stop, run};
 use crate::setup::{Model, build, read_mesh_of};
 use signorini_io::case::read_case;
-use signorini_io::diagnostic::{Diagnostic, codes};
-use signorini_io::fs::Action;
-use signorini_io::fs::{FailingFs, FsError, MemoryFs};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_io::fs::{Action, FailingFs, Fs, FsError, MemoryFs};
 use signorini_io::writers::json::Summary;
+use signorini_ranks::{Ranks, RanksError};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Condvar, Mutex};
+use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
 /// Where threads meet.

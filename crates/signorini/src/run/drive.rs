@@ -15,6 +15,7 @@ use super::volume::Volume;
 use super::{
     Finished, NOT_STARTED, RunOptions, drift, event_of, failure, heat, solution, torn, worn,
 };
+use crate::ranks::disk_of_first;
 use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
@@ -49,7 +50,7 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
     if let Err(parted) = ranks.same_input(&options.source.hash()) {
         return refuse(parted.diagnostic().into(), listener);
     }
-    let fs = ranks.files(|| Arc::clone(&options.fs));
+    let fs = disk_of_first(ranks, || Arc::clone(&options.fs));
     let claim = match (options.resume, options.fresh) {
         (true, _) => Claim::Resume,
         (false, true) => Claim::Fresh,
@@ -146,7 +147,9 @@ fn setting(
     let formats = Formats::new(&model.case.output);
     let frd = || (format!("{}.frd", model.name), model.case.title.clone());
     let setting = Setting {
-        fs: (options.ranks).files(|| Arc::new(BehindFs::new(Arc::clone(&options.fs)))),
+        fs: disk_of_first(&options.ranks, || {
+            Arc::new(BehindFs::new(Arc::clone(&options.fs)))
+        }),
         ranks: Arc::clone(&options.ranks),
         tree,
         name: model.name.clone(),
