@@ -735,4 +735,8 @@ impl Operators for OneGrid<'_> {
         self.grid.units.restore(z);
         outcome
     }
+
+    fn together(&mut self, own: f64, _: fn(f64, f64) -> f64) -> f64 {
+        own
+    }
 }

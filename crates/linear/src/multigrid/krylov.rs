@@ -31,24 +31,16 @@ pub(super) trait Operators {
     /// Those of solvers in it.
     fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError>;
 
-    /// The sum over all ranks, where vectors are shared out among them.
-    fn sum(&mut self, own: f64) -> f64 {
-        own
-    }
+    /// What all ranks have, combined in their order, where vectors are shared out among them; else one's own.
+    fn together(&mut self, own: f64, combine: fn(f64, f64) -> f64) -> f64;
+}
 
-    /// The largest number of all ranks.
-    fn most(&mut self, own: f64) -> f64 {
-        own
-    }
-
-    /// The inner product of two vectors.
-    fn dot(&mut self, a: &[f64], b: &[f64]) -> f64 {
-        self.sum(dot(a, b))
-    }
-
-    /// The largest entry of a vector, without its sign.
-    fn largest(&mut self, of: &[f64]) -> f64 {
-        self.most(largest(of))
+/// The larger number; NaN where one of them is.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
     }
 }
 
@@ -94,13 +86,19 @@ impl Stop {
 /// Entries handled by one task; sums of tasks are added up in their order.
 const CHUNK: usize = 16_384;
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// The inner product of two vectors.
+fn dot(of: &mut impl Operators, a: &[f64], b: &[f64]) -> f64 {
     let parts: Vec<f64> = a
         .par_chunks(CHUNK)
         .zip(b.par_chunks(CHUNK))
         .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a * b).sum())
         .collect();
-    parts.iter().sum()
+    of.together(parts.iter().sum(), |a, b| a + b)
+}
+
+/// The largest entry of a vector, without its sign.
+fn largest_of(of: &mut impl Operators, vector: &[f64]) -> f64 {
+    of.together(largest(vector), larger)
 }
 
 /// `to += factor x`
@@ -145,13 +143,13 @@ pub(super) fn conjugate_gradients(
     let n = r.len();
     let (mut z, mut p, mut q) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let (mut before, mut first) = (0.0, None);
-    let largest_first = of.largest(r);
+    let largest_first = largest_of(of, r);
     for iteration in 0..most {
-        if of.largest(r) <= stop.largest() {
+        if largest_of(of, r) <= stop.largest() {
             return Ok((End::Small, iteration));
         }
         of.precondition(r, &mut z)?;
-        let product = of.dot(r, &z);
+        let product = dot(of, r, &z);
         if product.is_nan() || product <= 0.0 {
             return Ok((End::Indefinite, iteration + 1));
         }
@@ -164,7 +162,7 @@ pub(super) fn conjugate_gradients(
         }
         if iteration == PATIENCE {
             let of_largest = (
-                of.largest(r) / largest_first,
+                largest_of(of, r) / largest_first,
                 stop.largest() / largest_first,
             );
             let of_energy = stop.part().map(|part| ((product / start).sqrt(), part));
@@ -184,7 +182,7 @@ pub(super) fn conjugate_gradients(
             *p = z + beta * *p;
         }
         of.apply(&p, &mut q);
-        let curvature = of.dot(&p, &q);
+        let curvature = dot(of, &p, &q);
         if curvature.is_nan() || curvature <= 0.0 {
             return Ok((End::Indefinite, iteration + 1));
         }
@@ -248,16 +246,16 @@ pub(super) fn minimal_residuals(
 ) -> Result<(End, usize), LinearError> {
     let n = r.len();
     let mut total = 0;
-    let start = of.dot(r, r).sqrt();
+    let start = dot(of, r, r).sqrt();
     let (mut sum, mut change) = (vec![0.0; n], vec![0.0; n]);
     while total < most {
-        let size = of.dot(r, r).sqrt();
+        let size = dot(of, r, r).sqrt();
         let goal = stop.part().map_or(0.0, |part| part * start);
-        if size <= goal || of.largest(r) <= stop.largest() {
+        if size <= goal || largest_of(of, r) <= stop.largest() {
             return Ok((End::Small, total));
         }
         // the largest entry over the norm, where it was looked at last
-        let mut spread = of.largest(r) / size;
+        let mut spread = largest_of(of, r) / size;
         let mut basis = vec![r.iter().map(|r| r / size).collect::<Vec<f64>>()];
         let mut directions: Vec<Vec<f64>> = Vec::new();
         // columns of the triangle, rotations, and the right side
@@ -275,10 +273,10 @@ pub(super) fn minimal_residuals(
             total += 1;
             let mut column = vec![0.0; k + 2];
             for (h, v) in column.iter_mut().zip(&basis) {
-                *h = of.dot(&w, v);
+                *h = dot(of, &w, v);
                 add(-*h, v, &mut w);
             }
-            let left = of.dot(&w, &w).sqrt();
+            let left = dot(of, &w, &w).sqrt();
             column[k + 1] = left;
             rotate(&mut column, &mut turns, &mut right);
             triangle.push(column);
@@ -292,7 +290,7 @@ pub(super) fn minimal_residuals(
             // the largest entry is looked at where the norm says that it may be small enough
             if !is_reached && size * spread <= NEARLY * stop.largest() {
                 residual_of(&basis, &turns, right[k + 1], &mut change);
-                let left = of.largest(&change);
+                let left = largest_of(of, &change);
                 is_reached = left <= stop.largest();
                 spread = left / size;
             }

@@ -309,7 +309,7 @@ impl Fleet {
                 End::Indefinite => return Ok(Err(Why::Indefinite)),
             }
             at.residual(&right, &own, &mut r)?;
-            let left = at.largest(&r);
+            let left = at.of_ranks(largest(&r), krylov::larger);
             report.residual = if left > 0.0 { left / size } else { 0.0 };
             report.refinements = attempt;
             let done = match wanted {
@@ -365,11 +365,11 @@ impl AtRanks<'_> {
         let sign = |e: u32| kept.sign.get(e as usize).copied().unwrap_or(0);
         let at = own.filter(|(e, _)| sign(**e) > 0);
         let own = at.fold(0.0, |most: f64, (_, v)| most.max(v.abs()));
-        self.of_ranks(own, larger)
+        self.of_ranks(own, krylov::larger)
     }
 
     /// One number of each rank, combined in their order.
-    fn of_ranks(&mut self, own: f64, combine: impl Fn(f64, f64) -> f64) -> f64 {
+    fn of_ranks(&mut self, own: f64, combine: fn(f64, f64) -> f64) -> f64 {
         let ranks = self.fleet.ranks;
         if ranks.size() == 1 {
             return own;
@@ -394,17 +394,6 @@ impl AtRanks<'_> {
             *x = all.get(n as usize).copied().unwrap_or(0.0);
         }
         Ok(())
-    }
-}
-
-/// The larger number; NaN where one of them is.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() {
-        a
-    } else if b.is_nan() {
-        b
-    } else {
-        a.max(b)
     }
 }
 
@@ -470,12 +459,8 @@ impl Operators for AtRanks<'_> {
         Ok(())
     }
 
-    fn sum(&mut self, own: f64) -> f64 {
-        self.of_ranks(own, |a, b| a + b)
-    }
-
-    fn most(&mut self, own: f64) -> f64 {
-        self.of_ranks(own, larger)
+    fn together(&mut self, own: f64, combine: fn(f64, f64) -> f64) -> f64 {
+        self.of_ranks(own, combine)
     }
 }
 
