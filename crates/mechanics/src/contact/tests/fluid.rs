@@ -20,10 +20,14 @@ fn laws() -> [Box<dyn ContactLaw>; 4] {
     ]
 }
 
-/// A fluid that comes from the first nodes of both sides.
-fn fluid(critical: Critical) -> Option<Fluid> {
+/// Nodes from one that a fluid comes from to the next: so that it reaches most rows, and so that facets stay dry.
+const DENSE: usize = 7;
+const SPARSE: usize = 29;
+
+/// A fluid that comes from some of the first nodes of both sides.
+fn fluid(critical: Critical, every: usize) -> Option<Fluid> {
     Some(Fluid {
-        seeds: (0..40).step_by(7).collect(),
+        seeds: (0..40).step_by(every).collect(),
         pressures: vec![[0.4, 0.4]],
         critical,
         ramp: 0.0,
@@ -31,14 +35,14 @@ fn fluid(critical: Critical) -> Option<Fluid> {
     })
 }
 
-fn choice(law: Box<dyn ContactLaw>, rubs: bool, critical: Critical) -> Choice {
+fn choice(law: Box<dyn ContactLaw>, rubs: bool, critical: Critical, every: usize) -> Choice {
     let coulomb = Coulomb {
         mu: 0.4,
         cap: f64::INFINITY,
     };
     Choice {
         friction: rubs.then(|| (Arc::new(coulomb) as _, Stick::Stiffness(3.0))),
-        fluid: fluid(critical),
+        fluid: fluid(critical, every),
         ..Choice::of(law)
     }
 }
@@ -50,14 +54,22 @@ fn wet(scene: &Scene) -> [usize; 2] {
     [wet, report.wet.len()]
 }
 
-/// Tangent and balance of one choice; what was tried, and whether some rows stay dry.
-fn check(kind: Kind, method: Method, law: usize, rubs: bool, seed: u64) -> (Worst, bool) {
+/// Tangent and balance of one choice, where the fluid comes from so many nodes; what was tried, and whether some rows are wet
+/// and others dry.
+fn check(
+    kind: Kind,
+    method: Method,
+    law: usize,
+    rubs: bool,
+    every: usize,
+    seed: u64,
+) -> (Worst, bool) {
     let law = laws().into_iter().nth(law).unwrap();
     let name = format!("{kind:?} {method:?} {:?} {rubs}", law.multiplier());
-    let choice = choice(law, rubs, Critical::Pressure(0.05));
+    let choice = choice(law, rubs, Critical::Pressure(0.05), every);
     let mut scene = Scene::with_past(kind, method, choice, seed);
     let [is_wet, all] = wet(&scene);
-    assert!(is_wet > 0, "{name}");
+    assert!(is_wet > 0 || every == SPARSE, "{name}");
     let found = tangent_error(&mut scene, seed);
     assert!(
         found.displacement < 1e-7 && found.multiplier < 1e-7,
@@ -69,7 +81,7 @@ fn check(kind: Kind, method: Method, law: usize, rubs: bool, seed: u64) -> (Wors
     let whole = scene.respond(&state, Order::Residual);
     let (force, _, size) = scene.resultant(&whole.force);
     assert!(force.norm() < 1e-12 * size, "{name}: {force:?} of {size}");
-    (found, is_wet < all)
+    (found, is_wet > 0 && is_wet < all)
 }
 
 /// All methods and laws; somewhere, rows stay dry.
@@ -79,16 +91,16 @@ fn walk(kind: Kind) {
     for method in methods(kind) {
         for law in 0..laws().len() {
             for rubs in [false, true] {
-                let (found, has_dry) = check(kind, method, law, rubs, SEED);
+                let (found, has_dry) = check(kind, method, law, rubs, DENSE, SEED);
                 some |= has_dry;
                 tried += found.tried;
             }
         }
     }
-    // a fluid that begins at every seventh node may reach all of them
+    // a facet of many nodes has one of those that the fluid comes from
     let mut others = SEED + 1..SEED + 6;
     let method = Method::NodeToSegment;
-    let some = some || others.any(|seed| check(kind, method, 0, false, seed).1);
+    let some = some || others.any(|seed| check(kind, method, 0, false, SPARSE, seed).1);
     assert!(some && tried > 0, "{kind:?}: {tried}");
 }
 
@@ -111,7 +123,7 @@ fn tangents_match_differences_and_loads_balance_on_surfaces() {
 fn its_force_is_that_of_its_energy() {
     for kind in ["line2", "line3", "quad4"] {
         for method in [Method::NodeToSegment, Method::Gauss, Method::SmallSliding] {
-            let choice = choice(Box::new(Penalty), false, Critical::Pressure(9.0));
+            let choice = choice(Box::new(Penalty), false, Critical::Pressure(9.0), DENSE);
             let mut scene = Scene::with_past(Kind::Elements(kind), method, choice, 2);
             let mut random = Random::new(5);
             let base = scene.state.clone();
@@ -143,7 +155,7 @@ fn its_force_is_that_of_its_energy() {
 fn a_front_stays_within_an_increment_and_is_the_same_after_it_was_loaded() {
     for method in [Method::NodeToSegment, Method::Gauss, Method::Mortar] {
         let make = || {
-            let mut choice = choice(Box::new(Penalty), true, Critical::Fluid);
+            let mut choice = choice(Box::new(Penalty), true, Critical::Fluid, DENSE);
             // a corner of the secondary side
             choice.fluid.as_mut().unwrap().seeds = vec![16];
             Scene::new(Kind::Elements("quad4"), method, choice, 4)
@@ -183,7 +195,7 @@ fn a_front_stays_within_an_increment_and_is_the_same_after_it_was_loaded() {
 
 #[test]
 fn a_fluid_from_nowhere_is_refused() {
-    let mut choice = choice(Box::new(Penalty), false, Critical::Fluid);
+    let mut choice = choice(Box::new(Penalty), false, Critical::Fluid, DENSE);
     choice.fluid.as_mut().unwrap().seeds = vec![10_000];
     let kind = Kind::Elements("line2");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);

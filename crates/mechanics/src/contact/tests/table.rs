@@ -11,6 +11,7 @@ use super::{Random, largest, next_increment};
 use crate::system::{Choices, Order, Term};
 use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 pub(super) fn laws() -> Vec<Box<dyn ContactLaw>> {
@@ -132,7 +133,11 @@ pub(super) fn has_kink(scene: &mut Scene, seed: u64) -> bool {
         });
         let pairs = before.along(&v).into_iter().zip(after.along(&v));
         let jump: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
-        largest(&jump) > 1e-3 * largest(&before.stiffness)
+        let jumps = |rows: Range<usize>| {
+            let stiffness = &before.stiffness[rows.start * n..rows.end * n];
+            largest(&jump[rows]) > 1e-3 * largest(stiffness)
+        };
+        jumps(0..first) || first < n && jumps(first..n)
     })
 }
 
