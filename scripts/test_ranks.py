@@ -28,6 +28,8 @@ ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
+    # in containers, a process may not read the memory of another one
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
 }
 # Seconds until a run counts as stuck.
 PATIENCE = 120
