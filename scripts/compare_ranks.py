@@ -39,6 +39,8 @@ ENVIRONMENT = {
     "OPENBLAS_NUM_THREADS": "1",
     # in containers, a process may not read the memory of another one
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    # ranks that wait let others work, as there are more of them than cores
+    "OMPI_MCA_mpi_yield_when_idle": "1",
 }
 MPIRUN = ["mpirun", "--oversubscribe", "-n"]
 
