@@ -444,8 +444,8 @@ impl Operators for AtRanks<'_> {
         z.fill(0.0);
         let (of_bodies, _) = z.split_at_mut(nbody);
         if !share.cycle(&right[..nbody], of_bodies)? {
+            // the other ranks, whose cycles may have gone well, learn of it by what is no number
             z.fill(f64::NAN);
-            return Ok(());
         }
         if has_block {
             share.answer(z, &mut near.value)?;
