@@ -149,6 +149,12 @@ pub enum Note {
         /// Why.
         why: Why,
     },
+    /// Multigrid over several ranks ends for the increment: each solves by itself.
+    #[error("multigrid over ranks gives way to the solver of one process, on every rank: {why}")]
+    Alone {
+        /// Why.
+        why: Why,
+    },
     /// The direct solver takes over until the increment ends.
     #[error("multigrid gives way to the direct solver: {why}")]
     Direct {

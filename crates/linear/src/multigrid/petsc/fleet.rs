@@ -46,6 +46,8 @@ struct Near {
     equation: Vec<u32>,
     /// Their values as they come from the ranks.
     value: Vec<f64>,
+    /// The entries of this rank that are among them, each with its equation.
+    own: Vec<(usize, usize)>,
     /// Residuals and changes with one entry per equation, of which only these are of use.
     residual: Vec<f64>,
     change: Vec<f64>,
@@ -158,7 +160,7 @@ impl Fleet {
             Err(LinearError::Singular { .. }) => {
                 let why = Why::Interface;
                 self.has_failed = true;
-                notes.push(Note::Direct { why });
+                notes.push(Note::Alone { why });
                 return Ok(false);
             }
             Err(other) => return Err(other),
@@ -201,8 +203,11 @@ impl Fleet {
             .collect();
         self.share.ask(&numbers)?;
         let nequation = kept.sign.len();
+        let own = self.layout.own.iter().enumerate();
+        let own = own.filter(|(_, e)| equation.binary_search(e).is_ok());
         self.near = Near {
             value: vec![0.0; equation.len()],
+            own: own.map(|(k, &e)| (k, e as usize)).collect(),
             residual: vec![0.0; nequation],
             change: vec![0.0; nequation],
             right: vec![0.0; nequation],
@@ -284,9 +289,13 @@ impl Fleet {
             self.block.after(rhs, x)?;
             self.layout.take(x, &mut own);
         }
+        let nrank = self.ranks.size();
         let mut at = AtRanks {
             fleet: self,
             symmetric,
+            right: vec![0.0; n],
+            numbers: vec![0.0; nrank],
+            counts: vec![1; nrank],
             fault: None,
         };
         at.residual(&right, &own, &mut r)?;
@@ -348,7 +357,12 @@ impl Fleet {
 struct AtRanks<'a> {
     fleet: &'a mut Fleet,
     symmetric: bool,
-    /// What the ranks could not tell one another.
+    /// What hierarchies are applied to.
+    right: Vec<f64>,
+    /// One number of each rank, and how many each sends.
+    numbers: Vec<f64>,
+    counts: Vec<usize>,
+    /// The first error of a call that cannot return one.
     fault: Option<LinearError>,
 }
 
@@ -374,9 +388,8 @@ impl AtRanks<'_> {
         if ranks.size() == 1 {
             return own;
         }
-        let mut all = vec![0.0; ranks.size()];
-        match ranks.all_gather(&[own], &vec![1; all.len()], &mut all) {
-            Ok(()) => all.into_iter().reduce(combine).unwrap_or(own),
+        match ranks.all_gather(&[own], &self.counts, &mut self.numbers) {
+            Ok(()) => self.numbers.iter().copied().reduce(combine).unwrap_or(own),
             Err(error) => {
                 self.fault.get_or_insert(library(&error));
                 f64::NAN
@@ -428,32 +441,30 @@ impl Operators for AtRanks<'_> {
         } = &mut *self.fleet;
         let has_block = !block.whole.is_empty();
         let nbody = layout.nbody();
-        let mut right = r.to_vec();
+        let right = &mut self.right;
+        right.copy_from_slice(r);
         if has_block {
             share.answer(r, &mut near.value)?;
-            near.spread(true);
+            spread(&near.equation, &near.value, &mut near.residual);
         }
         if has_block && self.symmetric {
             near.right.copy_from_slice(&near.residual);
             block.before(&mut near.right)?;
-            let own = layout.own.iter().zip(&mut right);
-            for (&e, right) in own.filter(|(e, _)| near.has(**e)) {
-                *right = near.right[e as usize];
+            for &(k, e) in &near.own {
+                right[k] = near.right[e];
             }
         }
         z.fill(0.0);
-        let (of_bodies, _) = z.split_at_mut(nbody);
-        if !share.cycle(&right[..nbody], of_bodies)? {
+        if !share.cycle(&right[..nbody], &mut z[..nbody])? {
             // the other ranks, whose cycles may have gone well, learn of it by what is no number
             z.fill(f64::NAN);
         }
         if has_block {
             share.answer(z, &mut near.value)?;
-            near.spread(false);
+            spread(&near.equation, &near.value, &mut near.change);
             block.after(&near.residual, &mut near.change)?;
-            let own = layout.own.iter().zip(z);
-            for (&e, z) in own.filter(|(e, _)| near.has(**e)) {
-                *z = near.change[e as usize];
+            for &(k, e) in &near.own {
+                z[k] = near.change[e];
             }
         }
         Ok(())
@@ -464,21 +475,9 @@ impl Operators for AtRanks<'_> {
     }
 }
 
-impl Near {
-    /// Whether the block knows of an equation.
-    fn has(&self, equation: u32) -> bool {
-        self.equation.binary_search(&equation).is_ok()
-    }
-
-    /// Puts what came from the ranks where the block looks for it: into residuals, or into changes.
-    fn spread(&mut self, is_residual: bool) {
-        let to = if is_residual {
-            &mut self.residual
-        } else {
-            &mut self.change
-        };
-        for (&e, v) in self.equation.iter().zip(&self.value) {
-            to[e as usize] = *v;
-        }
+/// Puts what came from the ranks where the block looks for it, in a list with one entry per equation.
+fn spread(equation: &[u32], value: &[f64], to: &mut [f64]) {
+    for (&e, v) in equation.iter().zip(value) {
+        to[e as usize] = *v;
     }
 }

@@ -74,8 +74,9 @@ impl OwnRows {
 /// The matrices of a problem as PETSc keeps them, of which this rank has some rows.
 pub(super) struct Share {
     id: NonNull<Opaque>,
-    /// Rows of the operator, rows of the bodies, and entries asked for.
+    /// Rows and entries of the operator, rows of the bodies, and entries asked for.
     nrow: usize,
+    nentry: usize,
     nbody: usize,
     nasked: usize,
 }
@@ -132,6 +133,7 @@ impl Share {
         Ok(Self {
             id,
             nrow: 0,
+            nentry: 0,
             nbody: 0,
             nasked: 0,
         })
@@ -155,7 +157,7 @@ impl Share {
                 rows.value.as_ptr(),
             )
         })?;
-        self.nrow = rows.nrow();
+        (self.nrow, self.nentry) = (rows.nrow(), rows.value.len());
         Ok(())
     }
 
@@ -164,10 +166,10 @@ impl Share {
     /// # Errors
     /// `Shape`, `Library`.
     pub fn set_values(&mut self, rows: &OwnRows) -> Result<(), LinearError> {
-        rows.check()?;
         fits("rows", rows.nrow(), self.nrow)?;
+        fits("values of entries", rows.value.len(), self.nentry)?;
         let _alone = alone();
-        // SAFETY: `id` is alive and has an operator with as many entries as there were values before.
+        // SAFETY: `id` is alive; `value` has one number for each entry of its operator on this rank.
         outcome(unsafe { signorini_petsc_values(self.id.as_ptr(), rows.value.as_ptr()) })
     }
 

@@ -28,7 +28,7 @@ use super::grid::Wanted;
 use super::{MULTIGRID_FROM, Multigrid, all_finite, suits};
 use crate::error::LinearError;
 use crate::problem::{Kept, Problem, Values};
-use crate::solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
+use crate::solver::{Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
 use fleet::Fleet;
 use std::any::Any;
 
@@ -104,7 +104,7 @@ impl Petsc {
             Some(fleet) if way == Way::Fleet => match fleet.solve(kept, values, rhs, x, wanted)? {
                 Ok(report) => return Ok(report),
                 Err(why) => {
-                    self.notes.push(Note::Direct { why });
+                    self.notes.push(Note::Alone { why });
                     fleet.has_failed = true;
                     match why {
                         Why::Slow { iterations } => iterations,
@@ -117,14 +117,8 @@ impl Petsc {
         if way == Way::Fleet {
             self.go_alone(values)?;
         }
-        let report = match wanted {
-            Wanted::Part { part, enough } if self.alone.iterates() => {
-                self.alone.solve_to(values, rhs, x, part, enough)
-            }
-            Wanted::Part { .. } => self.alone.solve(values, rhs, x, EXACT),
-            Wanted::Residual(rtol) => self.alone.solve(values, rhs, x, rtol),
-        };
-        report.map(|report| report.after(lost))
+        let report = self.alone.solve_by(values, rhs, x, wanted)?;
+        Ok(report.after(lost))
     }
 }
 

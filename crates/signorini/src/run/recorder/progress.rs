@@ -129,7 +129,9 @@ impl Recorder<'_> {
     }
 
     pub(super) fn solver(&mut self, step: usize, increment: usize, note: &Note) {
-        if let (Note::Direct { .. }, Some(counts)) = (note, self.counts.steps.get_mut(step)) {
+        if let (Note::Alone { .. } | Note::Direct { .. }, Some(counts)) =
+            (note, self.counts.steps.get_mut(step))
+        {
             counts.fallbacks += 1;
             self.linear.gave_way = true;
         }
