@@ -10,6 +10,8 @@ use std::sync::Mutex;
 /// METIS draws its random numbers from the C library's one generator: two orderings at once would disturb each other.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
+const OPTIONS: usize = metis_sys::METIS_NOPTIONS as usize;
+
 /// The nested dissection order of a graph: `order[new] = old`.
 ///
 /// `None` where METIS gives up, where the graph has no edge (nothing to order) or is too large for its 32 bits.
@@ -24,22 +26,15 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
         mut neighbour,
         mut weight,
     } = Lists::of(graph)?;
-    let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
     let mut order = vec![0i32; graph.nvertex()];
     let mut place = vec![0i32; graph.nvertex()];
 
-    let _guard = ONE_AT_A_TIME
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
-    #[cfg(target_os = "linux")]
-    let _handlers = handlers::Kept::new();
-    // SAFETY: every pointer is to a live, exclusively borrowed buffer of the length METIS documents: `options` has
-    // METIS_NOPTIONS entries, `start` nvertex + 1 entries that rise from 0 to the length of `neighbour`, `weight`,
-    // `order` and `place` nvertex entries. `Graph` keeps every neighbour below nvertex, without loops, both ways.
-    // METIS keeps no pointer, and frees what it allocates. Its one piece of shared state, the generator of random
-    // numbers, is behind the lock above.
-    let status = unsafe {
-        metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+    // SAFETY: every pointer is to a live, exclusively borrowed buffer of the length METIS documents: `options` as `call`
+    // has it, `start` nvertex + 1 entries that rise from 0 to the length of `neighbour`, `weight`, `order` and `place`
+    // nvertex entries. `Graph` keeps every neighbour below nvertex, without loops, both ways. METIS keeps no pointer, and
+    // frees what it allocates. Its one piece of shared state, the generator of random numbers, is behind the lock of
+    // `call`.
+    let is_well = call(|options| unsafe {
         metis_sys::METIS_NodeND(
             &mut nvertex,
             start.as_mut_ptr(),
@@ -49,9 +44,8 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
             order.as_mut_ptr(),
             place.as_mut_ptr(),
         )
-    };
-    (status == metis_sys::rstatus_et_METIS_OK)
-        .then(|| order.into_iter().map(|v| v as u32).collect())
+    });
+    is_well.then(|| order.into_iter().map(|v| v as u32).collect())
 }
 
 /// Parts of a graph with about the same weight and few edges between them: the part of each vertex. `None` as for
@@ -67,18 +61,11 @@ pub(super) fn partition(graph: &Graph, nparts: usize) -> Option<Vec<u32>> {
     let mut nparts = i32::try_from(nparts).ok().filter(|&n| n > 1)?;
     let mut nconstraint = 1;
     let mut cut = 0;
-    let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
     let mut part = vec![0i32; graph.nvertex()];
 
-    let _guard = ONE_AT_A_TIME
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
-    #[cfg(target_os = "linux")]
-    let _handlers = handlers::Kept::new();
     // SAFETY: as in `nested_dissection`; `part` has nvertex entries, the two numbers are live, and METIS takes null for
     // the weights of edges, the sizes of vertices, the shares of parts and the imbalance that it does not get.
-    let status = unsafe {
-        metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+    let is_well = call(|options| unsafe {
         metis_sys::METIS_PartGraphKway(
             &mut nvertex,
             &mut nconstraint,
@@ -94,8 +81,21 @@ pub(super) fn partition(graph: &Graph, nparts: usize) -> Option<Vec<u32>> {
             &mut cut,
             part.as_mut_ptr(),
         )
-    };
-    (status == metis_sys::rstatus_et_METIS_OK).then(|| part.into_iter().map(|p| p as u32).collect())
+    });
+    is_well.then(|| part.into_iter().map(|p| p as u32).collect())
+}
+
+/// Whether a call goes well, with the default options: one at a time, and with the handlers of signals as they were.
+fn call(metis: impl FnOnce(&mut [i32; OPTIONS]) -> i32) -> bool {
+    let mut options = [0; OPTIONS];
+    let _guard = ONE_AT_A_TIME
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    #[cfg(target_os = "linux")]
+    let _handlers = handlers::Kept::new();
+    // SAFETY: `options` has METIS_NOPTIONS entries, borrowed for the call alone.
+    unsafe { metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr()) };
+    metis(&mut options) == metis_sys::rstatus_et_METIS_OK
 }
 
 /// A graph in the numbers of METIS.
