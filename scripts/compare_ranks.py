@@ -28,20 +28,11 @@ import subprocess
 import sys
 import tempfile
 
+from jobs import RANKS_ENVIRONMENT
+
 MAKER = pathlib.Path(__file__).resolve().parent / "speed_decks.py"
 PART = 1e-9
 FORCE_TOL = "solver.newton.force_tol=1e-11"
-# of one thread each, as root on a machine with fewer cores than ranks
-ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    # in containers, a process may not read the memory of another one
-    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-    # ranks that wait let others work, as there are more of them than cores
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-}
 MPIRUN = ["mpirun", "--oversubscribe", "-n"]
 
 HEAD = """format = 1
@@ -166,7 +157,7 @@ def models(folder, names, decks):
 
 
 def run(command, folder):
-    done = subprocess.run(command, cwd=folder, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=folder, env={**os.environ, **RANKS_ENVIRONMENT}, capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f"{' '.join(command)}: exit code {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
     return done.stdout

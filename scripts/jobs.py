@@ -13,6 +13,19 @@ from dataclasses import dataclass
 MEASURED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "measured.py")
 
 
+# of ranks with one thread each, as root, on a machine with fewer cores than ranks
+RANKS_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    # in containers, a process may not read the memory of another one
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    # ranks that wait let others work
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+}
+
+
 def keywords(text):
     """The keywords of a deck, without blanks, in capitals, without their parameters."""
     lines = (line.strip() for line in text.splitlines())

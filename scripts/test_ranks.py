@@ -21,18 +21,10 @@ import tempfile
 import time
 import traceback
 
+from jobs import RANKS_ENVIRONMENT
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.join(HERE, "..", "examples")
-ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    # in containers, a process may not read the memory of another one
-    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-    # ranks that wait let others work, as there are more of them than cores
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-}
 # Seconds until a run counts as stuck.
 PATIENCE = 600
 # Seconds in which all ranks end where one is killed.
@@ -68,7 +60,7 @@ class Bench:
     def start(self, ranks, *arguments, **more):
         return subprocess.Popen(
             self.command(ranks, *arguments, **more),
-            env={**os.environ, **ENVIRONMENT},
+            env={**os.environ, **RANKS_ENVIRONMENT},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
