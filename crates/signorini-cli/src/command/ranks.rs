@@ -16,7 +16,7 @@ use std::sync::{Arc, OnceLock};
 
 static RANKS: OnceLock<Arc<LockStep>> = OnceLock::new();
 
-/// What programs that start several processes tell each of them: OpenMPI, MPICH and others by PMI, Slurm.
+/// What programs that start several processes set for each of them: OpenMPI, MPICH and others by PMI, Slurm.
 const STARTED: [&str; 6] = [
     "OMPI_COMM_WORLD_SIZE",
     "PMIX_RANK",

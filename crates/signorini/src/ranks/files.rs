@@ -1,6 +1,6 @@
 //! The disk of rank 0 for all ranks.
 //!
-//! Rank 0 acts; the meeting that follows tells whether that went well, and what was read. So a disk that is full, or a file that
+//! Rank 0 acts; at the meeting that follows, all learn whether that went well and what was read. So a disk that is full, or a file that
 //! is torn, is the same fault on every rank, at the same call.
 
 use super::lock_step::{LockStep, NOTHING};
@@ -45,19 +45,19 @@ struct RanksFs {
 }
 
 impl RanksFs {
-    fn ask<T: Told>(
+    fn ask<T: Message>(
         &self,
         action: Action,
         path: &Path,
         ask: impl FnOnce(&dyn Fs) -> Result<T, FsError>,
     ) -> Result<T, FsError> {
         let own = self.disk.as_deref().map(ask);
-        told(&self.ranks, action, path, own)
+        answered(&self.ranks, action, path, own)
     }
 }
 
 /// Meets the others about what a file on rank 0 was asked, and its answer.
-pub(super) fn told<T: Told>(
+pub(super) fn answered<T: Message>(
     ranks: &LockStep,
     action: Action,
     path: &Path,
@@ -80,7 +80,7 @@ pub(super) fn told<T: Told>(
         Some((_, bytes)) => bytes,
         None => vec![0; usize::try_from(length).unwrap_or(0)],
     };
-    ranks.tell(&mut bytes).map_err(parted)?;
+    ranks.send(&mut bytes).map_err(parted)?;
     match own {
         Some(own) => own,
         None if bad == 0 => Ok(T::from_bytes(bytes)),
@@ -175,7 +175,7 @@ impl RanksLog {
         ask: impl FnOnce(&mut dyn Log) -> Result<(), FsError>,
     ) -> Result<(), FsError> {
         let own = self.inner.as_mut().map(|log| ask(log.as_mut()));
-        told(&self.ranks, Action::Write, &self.path, own)
+        answered(&self.ranks, Action::Write, &self.path, own)
     }
 }
 
@@ -197,13 +197,13 @@ impl Log for RanksLog {
     }
 }
 
-/// What can be told.
-pub(super) trait Told {
+/// What can be sent.
+pub(super) trait Message {
     fn to_bytes(&self) -> Vec<u8>;
     fn from_bytes(bytes: Vec<u8>) -> Self;
 }
 
-impl Told for () {
+impl Message for () {
     fn to_bytes(&self) -> Vec<u8> {
         Vec::new()
     }
@@ -211,7 +211,7 @@ impl Told for () {
     fn from_bytes(_: Vec<u8>) -> Self {}
 }
 
-impl Told for bool {
+impl Message for bool {
     fn to_bytes(&self) -> Vec<u8> {
         vec![u8::from(*self)]
     }
@@ -221,7 +221,7 @@ impl Told for bool {
     }
 }
 
-impl Told for Vec<u8> {
+impl Message for Vec<u8> {
     fn to_bytes(&self) -> Vec<u8> {
         self.clone()
     }
@@ -231,7 +231,7 @@ impl Told for Vec<u8> {
     }
 }
 
-impl Told for Vec<PathBuf> {
+impl Message for Vec<PathBuf> {
     fn to_bytes(&self) -> Vec<u8> {
         let names: Vec<_> = self.iter().map(|path| path.to_string_lossy()).collect();
         names.join("\0").into_bytes()
@@ -244,7 +244,7 @@ impl Told for Vec<PathBuf> {
     }
 }
 
-impl Told for Option<SystemTime> {
+impl Message for Option<SystemTime> {
     fn to_bytes(&self) -> Vec<u8> {
         let since = self.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
         since.map_or_else(Vec::new, |since| since.as_secs_f64().to_le_bytes().to_vec())

@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 /// Nothing to say, at a meeting where the least number counts.
 pub(super) const NOTHING: u64 = u64::MAX;
 
-/// Bytes that are told at once.
+/// Bytes that are sent at once.
 const PIECE: usize = 1 << 30;
 
 /// The ranks of a run as one of them sees them.
@@ -67,7 +67,7 @@ impl LockStep {
         self.size() <= 1
     }
 
-    /// Whether this rank tells people and programs what happens: rank 0, and whichever has met a fault that others do not know.
+    /// Whether this rank reports what happens: rank 0, and whichever has met a fault that others do not know.
     #[must_use]
     pub fn speaks(&self) -> bool {
         self.rank() == 0 || self.failed_alone()
@@ -280,11 +280,11 @@ impl LockStep {
         Ok((0..self.size()).filter(differs).collect())
     }
 
-    /// Tells all ranks what rank 0 has.
+    /// Sends all ranks what rank 0 has.
     ///
     /// # Errors
     /// The ranks have parted.
-    pub(super) fn tell(&self, bytes: &mut [u8]) -> Result<(), Parted> {
+    pub(super) fn send(&self, bytes: &mut [u8]) -> Result<(), Parted> {
         for piece in bytes.chunks_mut(PIECE) {
             let heard = self.ranks.broadcast(piece);
             heard.map_err(|error| self.part(error.into()))?;

@@ -273,7 +273,7 @@ fn a_fault_of_the_disk_is_the_same_on_all_ranks() {
 }
 
 #[test]
-fn every_fault_of_a_file_is_told_as_it_is() {
+fn every_fault_of_a_file_arrives_as_it_is() {
     let path = Path::new("out/history.csv");
     let kinds = [
         ErrorKind::StorageFull,
@@ -306,15 +306,15 @@ fn every_fault_of_a_file_is_told_as_it_is() {
         kinds.into_iter().map(of_kind).chain(others)
     };
     for n in 0..faults().count() {
-        let (told, _) = on(2, |ranks| {
+        let (faults, _) = on(2, |ranks| {
             let fault = faults().nth(n).unwrap();
             let own = (ranks.rank() == 0).then_some(Err(fault));
-            files::told::<()>(ranks, Action::Write, path, own).unwrap_err()
+            files::answered::<()>(ranks, Action::Write, path, own).unwrap_err()
         });
-        assert_eq!(told[0].to_string(), told[1].to_string());
-        assert_eq!(told[0].help(), told[1].help());
+        assert_eq!(faults[0].to_string(), faults[1].to_string());
+        assert_eq!(faults[0].help(), faults[1].help());
         let kind = std::mem::discriminant::<FsError>;
-        assert_eq!(kind(&told[0]), kind(&told[1]));
+        assert_eq!(kind(&faults[0]), kind(&faults[1]));
     }
 }
 

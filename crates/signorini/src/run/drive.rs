@@ -343,7 +343,7 @@ impl Run<'_, '_> {
         Ending::Failed(message)
     }
 
-    /// Tells other ranks of a fault; where they do not have it, this one comes to its end without them.
+    /// Reports a fault to other ranks; where they do not have it, this one comes to its end without them.
     fn fails(&self, exit_code: Option<u8>) {
         let _ = self.options.ranks.fails(exit_code.unwrap_or(5));
     }
