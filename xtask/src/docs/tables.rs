@@ -123,7 +123,7 @@ mod tests {
         let rows: String = rooms::names().map(row).collect();
         let head = "| room | may import | contents |\n|---|---|---|\n";
         assert!(faults_of(&format!("{head}{rows}")).is_empty());
-        let wrong = rows.replace("| `linear` |  |", "| `linear` | geometry |");
+        let wrong = rows.replace(&row("linear"), "| `linear` | geometry | words |\n");
         assert_eq!(faults_of(&format!("{head}{wrong}")).len(), 1);
         let short = rows.replace(&row("linear"), "");
         let lacks = (1, "the table of rooms lacks linear".to_string());
