@@ -70,6 +70,7 @@ mod shares;
 mod sink;
 mod state;
 mod strip;
+mod tangent;
 mod term;
 #[cfg(test)]
 mod tests;
