@@ -20,9 +20,11 @@ mod alone;
 mod error;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod threads;
 
 pub use alone::Alone;
 pub use error::RanksError;
+pub use threads::on_threads;
 
 use std::fmt::Debug;
 

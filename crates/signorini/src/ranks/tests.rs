@@ -9,124 +9,16 @@ use signorini_io::case::read_case;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::fs::{Action, FailingFs, Fs, FsError, MemoryFs};
 use signorini_io::writers::json::Summary;
-use signorini_ranks::{Ranks, RanksError};
+use signorini_ranks::on_threads;
 use std::io::ErrorKind;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex};
-use std::time::{Duration, Instant};
-
-/// Where threads meet.
-#[derive(Debug, Default)]
-struct Table {
-    state: Mutex<State>,
-    all_are_there: Condvar,
-    /// With what exit code all were ended; 0 before.
-    aborted: AtomicUsize,
-}
-
-#[derive(Debug, Default)]
-struct State {
-    round: u64,
-    said: Vec<Option<Vec<u8>>>,
-    heard: Arc<Vec<Vec<u8>>>,
-}
-
-/// One of some threads.
-#[derive(Debug)]
-struct Thread {
-    rank: usize,
-    size: usize,
-    table: Arc<Table>,
-}
-
-const SILENCE: RanksError = RanksError::Library {
-    call: "meeting",
-    code: 1,
-};
-
-impl Thread {
-    /// What all say; an error where some do not come, or say something of another length.
-    fn exchange(&self, own: Vec<u8>) -> Result<Arc<Vec<Vec<u8>>>, RanksError> {
-        let mut state = self.table.state.lock().unwrap();
-        let round = state.round;
-        state.said.resize(self.size, None);
-        assert!(state.said[self.rank].is_none());
-        state.said[self.rank] = Some(own);
-        if state.said.iter().all(Option::is_some) {
-            state.heard = Arc::new(state.said.drain(..).flatten().collect());
-            state.round += 1;
-            self.table.all_are_there.notify_all();
-        } else {
-            let waits = |state: &mut State| state.round == round;
-            let patience = Duration::from_secs(60);
-            let waited = (self.table.all_are_there).wait_timeout_while(state, patience, waits);
-            state = waited.unwrap().0;
-            if state.round == round {
-                return Err(SILENCE);
-            }
-        }
-        let first = state.heard[0].len();
-        match state.heard.iter().all(|said| said.len() == first) {
-            true => Ok(Arc::clone(&state.heard)),
-            false => Err(SILENCE),
-        }
-    }
-}
-
-impl Ranks for Thread {
-    fn rank(&self) -> usize {
-        self.rank
-    }
-
-    fn size(&self) -> usize {
-        self.size
-    }
-
-    fn all_gather(&self, own: &[f64], _: &[usize], all: &mut [f64]) -> Result<(), RanksError> {
-        let heard = self.exchange(own.iter().flat_map(|x| x.to_le_bytes()).collect())?;
-        let bytes: Vec<u8> = heard.iter().flatten().copied().collect();
-        for (x, bytes) in all.iter_mut().zip(bytes.as_chunks().0) {
-            *x = f64::from_le_bytes(*bytes);
-        }
-        Ok(())
-    }
-
-    fn broadcast(&self, bytes: &mut [u8]) -> Result<(), RanksError> {
-        bytes.copy_from_slice(&self.exchange(bytes.to_vec())?[0]);
-        Ok(())
-    }
-
-    fn least(&self, numbers: &mut [u64]) -> Result<(), RanksError> {
-        let own = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
-        for said in self.exchange(own)?.iter() {
-            for (n, bytes) in numbers.iter_mut().zip(said.as_chunks().0) {
-                *n = u64::from_le_bytes(*bytes).min(*n);
-            }
-        }
-        Ok(())
-    }
-
-    fn abort(&self, code: u8) {
-        self.table.aborted.store(code.into(), Ordering::SeqCst);
-    }
-}
+use std::time::Instant;
 
 /// What every rank comes to, and the exit code with which all were ended.
-fn on<T: Send>(size: usize, act: impl Fn(&Arc<LockStep>) -> T + Sync) -> (Vec<T>, usize) {
-    let table = Arc::new(Table::default());
-    let done = std::thread::scope(|scope| {
-        let start = |rank| {
-            let table = Arc::clone(&table);
-            let ranks: &'static Thread = Box::leak(Box::new(Thread { rank, size, table }));
-            let act = &act;
-            scope.spawn(move || act(&Arc::new(LockStep::new(ranks))))
-        };
-        let threads: Vec<_> = (0..size).map(start).collect();
-        let done = threads.into_iter().map(|thread| thread.join().unwrap());
-        done.collect()
-    });
-    (done, table.aborted.load(Ordering::SeqCst))
+fn on<T: Send>(size: usize, act: impl Fn(&Arc<LockStep>) -> T + Sync) -> (Vec<T>, u8) {
+    on_threads(size, |ranks| act(&Arc::new(LockStep::new(ranks))))
 }
 
 const CASE: &str = r#"
