@@ -10,10 +10,11 @@ use crate::sparsity::NONE;
 /// The rows of the operator, and where their values are in those of the whole.
 pub(super) struct Operator {
     pub rows: OwnRows,
-    /// The value of the whole (bulk first, then interface) and the entry that it is added to.
-    sources: Vec<(usize, u32)>,
-    /// Entries of prescribed components, which are 1.
-    units: Vec<u32>,
+    /// The value that each entry begins with, bulk first, then interface; `NONE` for prescribed components, which are 1. A
+    /// rank has fewer than 2³² of both, for entries have numbers of 32 bits.
+    first: Vec<u32>,
+    /// Values that are added, each with its entry.
+    more: Vec<(u32, u32)>,
 }
 
 impl Operator {
@@ -23,11 +24,11 @@ impl Operator {
             start: vec![0],
             ..OwnRows::default()
         };
-        let (mut sources, mut units) = (Vec::new(), Vec::new());
+        let (mut first, mut more) = (Vec::new(), Vec::new());
         let mut of_row: Vec<(u32, usize)> = Vec::new();
         for (k, &e) in layout.own.iter().enumerate() {
             if e == NONE {
-                units.push(rows.column.len() as u32);
+                first.push(NONE);
                 rows.column.push((layout.first + k) as i32);
             } else {
                 let dof = numbers.raw[e as usize];
@@ -47,34 +48,34 @@ impl Operator {
                         rows.column.len() == begin || rows.column.last() != Some(&(column as i32));
                     if is_new {
                         rows.column.push(column as i32);
+                        first.push(at as u32);
+                    } else {
+                        more.push((at as u32, rows.column.len() as u32 - 1));
                     }
-                    sources.push((at, rows.column.len() as u32 - 1));
                 }
             }
             rows.start.push(rows.column.len() as i32);
         }
         rows.value = vec![0.0; rows.column.len()];
-        Self {
-            rows,
-            sources,
-            units,
-        }
+        Self { rows, first, more }
     }
 
     /// Takes the values of a tangent.
     pub fn update(&mut self, kept: &Kept, values: &Values) {
         let nbulk = kept.bulk.nvalue();
-        let value = &mut self.rows.value;
-        value.fill(0.0);
-        for &(at, entry) in &self.sources {
-            let from = match at.checked_sub(nbulk) {
-                None => values.bulk.get(at),
+        let value_at = |at: u32| {
+            let from = match (at as usize).checked_sub(nbulk) {
+                None => values.bulk.get(at as usize),
                 Some(at) => values.interface.get(at),
             };
-            value[entry as usize] += from.copied().unwrap_or(0.0);
+            from.copied().unwrap_or(0.0)
+        };
+        let value = &mut self.rows.value;
+        for (value, &at) in value.iter_mut().zip(&self.first) {
+            *value = if at == NONE { 1.0 } else { value_at(at) };
         }
-        for &entry in &self.units {
-            value[entry as usize] = 1.0;
+        for &(at, entry) in &self.more {
+            value[entry as usize] += value_at(at);
         }
     }
 }
