@@ -29,6 +29,7 @@ mod mumps;
 mod norm;
 mod operator;
 mod ordering;
+mod partition;
 mod problem;
 mod residual;
 mod solver;
@@ -48,6 +49,7 @@ pub use multigrid::Petsc;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};
+pub use partition::Partition;
 pub use problem::{FieldBlock, Problem, Symmetry, Values};
 pub use solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
 pub use table::{LinearKind, SOLVERS, SolverEntry, choose};

@@ -273,17 +273,7 @@ impl Kept {
 
     /// Raw columns of the row of a dof in the bulk, and where their values are.
     pub fn bulk_row(&self, dof: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
-        let (bulk, block) = (&self.bulk, self.bulk.block);
-        let (node, i) = (dof as usize / block, dof as usize % block);
-        let blocks = if node < bulk.nrow() {
-            bulk.row_start[node]..bulk.row_start[node + 1]
-        } else {
-            0..0
-        };
-        blocks.flat_map(move |k| {
-            let first = bulk.column[k] as usize * block;
-            (0..block).map(move |j| ((first + j) as u32, (k * block + i) * block + j))
-        })
+        self.bulk.row_of_dof(dof)
     }
 
     /// Raw columns of the row of a dof in the interface, and where their values are.

@@ -2,6 +2,7 @@
 
 use crate::error::LinearError;
 use crate::problem::{Problem, Values};
+use signorini_ranks::Ranks;
 use std::any::Any;
 
 /// What a solution is worth.
@@ -99,6 +100,9 @@ pub trait Iterative {
         part: f64,
         enough: f64,
     ) -> Result<SolveReport, LinearError>;
+
+    /// The ranks among which it takes the rows of the bulk divided; none: it takes all of them.
+    fn ranks(&self) -> Option<&'static dyn Ranks>;
 
     /// Whether it asks for the initial stiffness of the bodies with this id before the next values.
     fn wants_start(&self, id: u64) -> bool;

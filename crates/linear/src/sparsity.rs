@@ -22,7 +22,9 @@
 //! not split.
 
 use crate::lists::Lists;
+use crate::partition::Partition;
 use rayon::prelude::*;
+use signorini_ranks::Ranks;
 use std::sync::Arc;
 
 /// "No such number": a degree of freedom without an equation, a node without a body.
@@ -45,6 +47,8 @@ pub struct BlockPattern {
     pub row_start: Arc<[usize]>,
     /// The block column of each block.
     pub column: Arc<[u32]>,
+    /// Which rank has which rows; none where all rows are here. Those of other ranks are empty.
+    pub partition: Option<Arc<Partition>>,
 }
 
 impl BlockPattern {
@@ -54,6 +58,7 @@ impl BlockPattern {
             block,
             row_start: vec![0; nrow + 1].into(),
             column: Arc::default(),
+            partition: None,
         }
     }
 
@@ -64,7 +69,65 @@ impl BlockPattern {
             block,
             row_start: row_start.into(),
             column: column.into(),
+            partition: None,
         }
+    }
+
+    /// Of a pattern with all rows, those of this rank: they are divided among these ranks.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_linear::sparsity::BlockPattern;
+    /// use signorini_ranks::on_threads;
+    ///
+    /// let bars = BlockPattern::from_cliques(5, 1, &[0, 1, 1, 2, 2, 3, 3, 4], &[0, 2, 4, 6, 8]);
+    /// let (blocks, _) = on_threads(2, |ranks| bars.divided(ranks).nblock());
+    /// assert_eq!(blocks.iter().sum::<usize>(), bars.nblock());
+    /// ```
+    pub fn divided(&self, ranks: &'static dyn Ranks) -> Self {
+        let partition = Partition::new(self.nrow(), |row| self.columns(row), ranks);
+        let mut row_start = Vec::with_capacity(self.nrow() + 1);
+        row_start.push(0);
+        let mut column = Vec::new();
+        for node in 0..self.nrow() as u32 {
+            if partition.is_own(node) {
+                column.extend_from_slice(self.columns(node));
+            }
+            row_start.push(column.len());
+        }
+        Self {
+            block: self.block,
+            row_start: row_start.into(),
+            column: column.into(),
+            partition: Some(partition.into()),
+        }
+    }
+
+    /// Whether a node has a row, here or on another rank.
+    pub fn has_row(&self, node: u32) -> bool {
+        match &self.partition {
+            Some(partition) => partition.owner(node).is_some(),
+            None => self.position(node, node).is_some(),
+        }
+    }
+
+    /// The columns of a row that is here; none for others.
+    pub fn columns(&self, row: u32) -> &[u32] {
+        row_of(&self.row_start, &self.column, row)
+    }
+
+    /// Raw columns of the row of a raw dof, and where their values are; none for a row that is not here.
+    pub(crate) fn row_of_dof(&self, dof: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
+        let block = self.block;
+        let (node, i) = (dof as usize / block, dof as usize % block);
+        let blocks = match self.row_start.get(node..node.saturating_add(2)) {
+            Some(&[begin, end]) => begin..end,
+            _ => 0..0,
+        };
+        blocks.flat_map(move |k| {
+            let first = self.column[k] as usize * block;
+            (0..block).map(move |j| ((first + j) as u32, (k * block + i) * block + j))
+        })
     }
 
     /// The number of block rows.

@@ -72,7 +72,7 @@ const ROOMS: [Room; 48] = [
     room("ranks", &[]),
     room("linear", &["ranks"]),
     room("mechanics", &[]),
-    room("mechanics::system", &["linear", "geometry"]),
+    room("mechanics::system", &["linear", "ranks", "geometry"]),
     room("mechanics::material", &["vocabulary", "geometry::tensor"]),
     room(
         "mechanics::solid",
@@ -112,7 +112,12 @@ const ROOMS: [Room; 48] = [
     ),
     room(
         "mechanics::solve",
-        &["mechanics::system", "mechanics::explicit", "linear"],
+        &[
+            "mechanics::system",
+            "mechanics::explicit",
+            "linear",
+            "ranks",
+        ],
     ),
     room("mechanics::model", &["mechanics", "linear", "geometry"]),
     room("io", &[]),

@@ -5,18 +5,12 @@
 
 use super::blocks::Blocks;
 use super::fine::Fine;
+use super::values::Means;
 use crate::problem::{Kept, Values};
 
 /// The largest stiffness to the ground that is little, over the mean one of the node. Viscous forces are 1e-3 of it, and 0.03
 /// after an iteration has failed; a penalty is ten times as stiff.
 const LITTLE: f64 = 0.1;
-
-/// The largest stiffness to the ground at a node that is little.
-fn little(kept: &Kept, values: &Values, node: usize) -> f64 {
-    let at = kept.bulk.position(node as u32, node as u32);
-    let block = at.and_then(|at| values.bulk.get(9 * at..9 * at + 9));
-    block.map_or(0.0, |b| LITTLE * (b[0] + b[4] + b[8]) / 3.0)
-}
 
 /// The columns and values of the interface at an unknown.
 fn row<'a>(kept: &'a Kept, values: &'a Values<'_>, dof: usize) -> impl Iterator<Item = (u32, f64)> {
@@ -28,12 +22,12 @@ fn row<'a>(kept: &'a Kept, values: &'a Values<'_>, dof: usize) -> impl Iterator<
 }
 
 /// Whether interface values act on each node, apart from small values at single unknowns.
-pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
+pub(super) fn touched(kept: &Kept, values: &Values, means: Means<'_>) -> Vec<bool> {
     let counts = |dof: usize, (column, v): (u32, f64)| {
         let is_alone = column as usize == dof;
         v != 0.0
             && !kept.is_of_field(column)
-            && !(is_alone && v.abs() <= little(kept, values, dof / 3))
+            && !(is_alone && v.abs() <= LITTLE * means.of(dof / 3))
     };
     let is_touched = |node: usize| {
         let mut dofs = 3 * node..3 * node + 3;
@@ -57,8 +51,9 @@ pub(super) fn coupled(kept: &Kept) -> Vec<bool> {
 
 /// Adds small values at single unknowns to the stiffness of the bodies.
 pub(super) fn add(kept: &Kept, values: &Values, fine: &Fine, matrix: &mut Blocks<3, 3>) {
+    let means = Means::Here(kept, values);
     for (row, at) in places(fine, matrix) {
-        for (axis, v) in at_node(kept, values, fine.node[row]) {
+        for (axis, v) in at_node(kept, values, fine.node[row], means) {
             matrix.value[at][axis][axis] += v;
         }
     }
@@ -66,11 +61,13 @@ pub(super) fn add(kept: &Kept, values: &Values, fine: &Fine, matrix: &mut Blocks
 
 /// The mean of what [`add`] adds at bodies that float, over the stiffness there.
 pub(super) fn strength(kept: &Kept, values: &Values, fine: &Fine) -> f64 {
+    let means = Means::Here(kept, values);
     let (mut added, mut all) = (0.0, 0.0);
     for &row in &fine.floating {
         let node = fine.node[row as usize];
-        added += at_node(kept, values, node).map(|(_, v)| v).sum::<f64>();
-        all += 3.0 * little(kept, values, node as usize) / LITTLE;
+        let of_node = at_node(kept, values, node, means);
+        added += of_node.map(|(_, v)| v).sum::<f64>();
+        all += 3.0 * means.of(node as usize);
     }
     if all > 0.0 { added / all } else { 0.0 }
 }
@@ -80,8 +77,9 @@ fn at_node<'a>(
     kept: &'a Kept,
     values: &'a Values<'_>,
     node: u32,
+    means: Means<'_>,
 ) -> impl Iterator<Item = (usize, f64)> {
-    let little = little(kept, values, node as usize);
+    let little = LITTLE * means.of(node as usize);
     (0..3).filter_map(move |axis| {
         let dof = 3 * node as usize + axis;
         let own = row(kept, values, dof).find(|(column, _)| *column as usize == dof);

@@ -1,6 +1,7 @@
 //! The equations around the interface, solved directly.
 
 use super::alone::{coupled, touched};
+use super::values::Means;
 use crate::direct::Direct;
 use crate::direct::Factor;
 use crate::error::LinearError;
@@ -97,7 +98,7 @@ impl InterfaceBlock {
             .filter(|&node| all[node as usize])
             .collect();
         block.extra = beyond(kept);
-        block.number(kept);
+        block.number(kept, &kept.bulk);
         Factor::of(&block.problem(kept))
     }
 
@@ -127,11 +128,30 @@ impl InterfaceBlock {
     /// # Errors
     /// Those of the direct solver.
     pub fn update(&mut self, kept: &Kept, values: &Values) -> Result<(), LinearError> {
-        let (nodes, extra) = choose(kept, values);
+        let touched = touched(kept, values, Means::Here(kept, values));
+        let near = |nodes: &[u32]| {
+            let columns = nodes.iter().flat_map(|&node| kept.bulk.columns(node));
+            Ok(columns.copied().collect())
+        };
+        let chosen = choose(kept, touched, near)?;
+        self.update_at(kept, &kept.bulk, values, chosen)
+    }
+
+    /// The same for nodes and other dofs that have been chosen; `bulk`, whose values these are, has the rows of the nodes.
+    ///
+    /// # Errors
+    /// Those of the direct solver.
+    pub fn update_at(
+        &mut self,
+        kept: &Kept,
+        bulk: &BlockPattern,
+        values: &Values,
+        (nodes, extra): (Vec<u32>, Vec<u32>),
+    ) -> Result<(), LinearError> {
         if nodes != self.nodes || extra != self.extra || self.equation.is_empty() {
             self.nodes = nodes;
             self.extra = extra;
-            self.number(kept);
+            self.number(kept, bulk);
             self.is_exact = None;
         }
         if self.whole.is_empty() {
@@ -172,7 +192,7 @@ impl InterfaceBlock {
     }
 
     /// Numbers the equations and finds where their values are.
-    fn number(&mut self, kept: &Kept) {
+    fn number(&mut self, kept: &Kept, bulk: &BlockPattern) {
         let nlocal = self.nodes.len();
         let nbulk = 3 * kept.bulk.nrow();
         let mut local_node = vec![NONE; kept.bulk.nrow()];
@@ -198,9 +218,9 @@ impl InterfaceBlock {
         let (mut row_start, mut columns) = (vec![0], Vec::new());
         self.bulk_at.clear();
         for &node in &self.nodes {
-            let of_row = kept.bulk.row_start[node as usize]..kept.bulk.row_start[node as usize + 1];
+            let of_row = bulk.row_start[node as usize]..bulk.row_start[node as usize + 1];
             for at in of_row {
-                let column = local_node[kept.bulk.column[at] as usize];
+                let column = local_node[bulk.column[at] as usize];
                 if column != NONE {
                     columns.push(column);
                     self.bulk_at.push(at as u32);
@@ -212,6 +232,7 @@ impl InterfaceBlock {
             block: 3,
             row_start: row_start.into(),
             column: columns.into(),
+            partition: None,
         };
         let (mut row_start, mut columns) = (vec![0], Vec::new());
         self.interface_at.clear();
@@ -241,7 +262,7 @@ impl InterfaceBlock {
                 self.whole.push(whole);
             }
         }
-        self.connect(kept, &raw);
+        self.connect(kept, bulk, &raw);
         let signs = self.whole.iter().map(|&e| kept.sign[e as usize]);
         self.sign = signs.collect();
         self.right = vec![0.0; self.whole.len()];
@@ -249,12 +270,12 @@ impl InterfaceBlock {
     }
 
     /// Finds what connects these equations with others: bulk, and what rows of the interface depend on without acting on it.
-    fn connect(&mut self, kept: &Kept, raw: &[u32]) {
+    fn connect(&mut self, kept: &Kept, bulk: &BlockPattern, raw: &[u32]) {
         let mut is_inside = vec![false; kept.sign.len()];
         for &e in &self.whole {
             is_inside[e as usize] = true;
         }
-        let nbulk = kept.bulk.nvalue();
+        let nbulk = bulk.nvalue();
         let Rows { start, column, .. } = &mut self.outer;
         start.clear();
         column.clear();
@@ -267,7 +288,7 @@ impl InterfaceBlock {
             let of_interface = kept.interface.row_start.get(dof as usize..dof as usize + 2);
             let of_interface = of_interface.map_or(0..0, |ends| ends[0]..ends[1]);
             let of_interface = of_interface.map(|at| (kept.interface.column[at], nbulk + at));
-            for (other, at) in kept.bulk_row(dof).chain(of_interface) {
+            for (other, at) in bulk.row_of_dof(dof).chain(of_interface) {
                 let e = kept.equation[other as usize];
                 if e != NONE && !is_inside[e as usize] {
                     column.push(e);
@@ -386,9 +407,17 @@ fn beyond(kept: &Kept) -> Vec<u32> {
 
 /// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many. Where
 /// values act on nearly all that they have a place at, these are taken: then what opens and closes costs no new order.
-fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
+/// `near` gives the nodes in the rows of some, in any order.
+///
+/// # Errors
+/// Those of `near`.
+pub(super) fn choose(
+    kept: &Kept,
+    touched: Vec<bool>,
+    mut near: impl FnMut(&[u32]) -> Result<Vec<u32>, LinearError>,
+) -> Result<(Vec<u32>, Vec<u32>), LinearError> {
     let nnode = kept.bulk.nrow();
-    let mut inside = touched(kept, values);
+    let mut inside = touched;
     let all = coupled(kept);
     let [some, most] = [&inside, &all].map(|some| some.iter().filter(|is_in| **is_in).count());
     if some > 0 && most as f64 <= NEARLY * some as f64 {
@@ -403,12 +432,9 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let most = if has_multipliers { 1 } else { LAYERS.len() };
     for (part, few) in LAYERS.into_iter().take(most) {
         let mut more = nodes.clone();
-        for &node in &nodes {
-            let range = kept.bulk.row_start[node as usize]..kept.bulk.row_start[node as usize + 1];
-            for &other in &kept.bulk.column[range] {
-                if !std::mem::replace(&mut inside[other as usize], true) {
-                    more.push(other);
-                }
+        for other in near(&nodes)? {
+            if !std::mem::replace(&mut inside[other as usize], true) {
+                more.push(other);
             }
         }
         let count = 3 * more.len() + extra.len();
@@ -418,5 +444,5 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
         more.sort_unstable();
         nodes = more;
     }
-    (nodes, extra)
+    Ok((nodes, extra))
 }

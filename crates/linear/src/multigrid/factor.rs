@@ -15,7 +15,7 @@
 use super::blocks::Blocks;
 use super::fine::{Fine, stiffen};
 use super::springs::Rows;
-use super::values::{fill, fingerprint};
+use super::values::{Means, fill, fingerprint};
 use super::{alone, springs};
 use crate::direct::Direct;
 use crate::error::LinearError;
@@ -96,7 +96,8 @@ impl BodyFactor {
         values: &Values,
         fine: &Fine,
     ) -> Result<bool, LinearError> {
-        let (rows, springs) = springs::rows_and_strengths(kept, values, fine);
+        let (rows, springs) =
+            springs::rows_and_strengths(kept, values, Means::Here(kept, values), fine);
         if self.is_there() && !self.is_stale && self.is_held_like(&springs) {
             return Ok(false);
         }
@@ -114,6 +115,7 @@ impl BodyFactor {
             block: 3,
             row_start: matrix.start.as_slice().into(),
             column: matrix.column.as_slice().into(),
+            partition: None,
         };
         let equation: Vec<u32> = (0..3 * nrow as u32).collect();
         let place = |&node: &u32| kept.coordinates.get(node as usize).copied();

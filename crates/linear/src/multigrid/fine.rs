@@ -54,46 +54,19 @@ impl Fine {
         let coordinates = kept.coordinates.as_slice();
         let is_free = |dof: usize| kept.is_free(dof);
         let nnode = kept.bulk.nrow().min(coordinates.len());
-        let has_bulk = |node: u32| kept.bulk.position(node, node).is_some();
-        let moves =
-            |node: usize| (0..3).any(|axis| is_free(3 * node + axis)) && has_bulk(node as u32);
-        let free: Vec<u32> = (0..nnode as u32).filter(|&n| moves(n as usize)).collect();
-        let bodies = bodies(kept, nnode);
-        let part = bisect(
-            &bodies,
-            |node| moves(node as usize),
-            coordinates,
-            free.len(),
-        );
-        // a node with a neighbour in an earlier part is between parts
-        let between = |node: u32| {
-            let own = part[node as usize];
-            let range = kept.bulk.row_start[node as usize]..kept.bulk.row_start[node as usize + 1];
-            let near = kept.bulk.column[range].iter();
-            near.filter_map(|&other| part.get(other as usize))
-                .any(|&other| other < own)
+        let moves = |node: u32| {
+            (0..3).any(|axis| is_free(3 * node as usize + axis)) && kept.bulk.has_row(node)
         };
-        let nparts = part
-            .iter()
-            .filter(|&&p| p != NONE)
-            .max()
-            .map_or(0, |&p| p + 1);
-        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); nparts as usize + 1];
-        for &node in &free {
-            let to = if between(node) {
-                nparts
-            } else {
-                part[node as usize]
-            };
-            rows[to as usize].push(node);
-        }
-        let mut parts = Vec::with_capacity(nparts as usize);
-        let mut end = 0;
-        for part in &rows[..nparts as usize] {
-            parts.push(end..end + part.len());
-            end += part.len();
-        }
-        let node = rows.concat();
+        let free: Vec<u32> = (0..nnode as u32).filter(|&n| moves(n)).collect();
+        let (bodies, (node, parts)) = match &kept.bulk.partition {
+            // what couples is not known of rows of other ranks, and parts are for threads
+            Some(partition) => (partition.bodies(), (free, Vec::new())),
+            None => {
+                let bodies = bodies(kept, nnode);
+                let parts = in_parts(kept, &bodies, &free, moves);
+                (bodies, parts)
+            }
+        };
         let mut row = vec![NONE; kept.bulk.nrow()];
         for (r, &n) in node.iter().enumerate() {
             row[n as usize] = r as u32;
@@ -245,6 +218,44 @@ impl Corners<3> {
     }
 }
 
+/// Nodes part by part, and the ranges of the parts; nodes between parts come last.
+fn in_parts(
+    kept: &Kept,
+    bodies: &[Vec<u32>],
+    free: &[u32],
+    moves: impl Fn(u32) -> bool,
+) -> (Vec<u32>, Vec<Range<usize>>) {
+    let part = bisect(bodies, moves, &kept.coordinates, free.len());
+    // a node with a neighbour in an earlier part is between parts
+    let between = |node: u32| {
+        let own = part[node as usize];
+        let near = kept.bulk.columns(node).iter();
+        near.filter_map(|&other| part.get(other as usize))
+            .any(|&other| other < own)
+    };
+    let nparts = part
+        .iter()
+        .filter(|&&p| p != NONE)
+        .max()
+        .map_or(0, |&p| p + 1);
+    let mut rows: Vec<Vec<u32>> = vec![Vec::new(); nparts as usize + 1];
+    for &node in free {
+        let to = if between(node) {
+            nparts
+        } else {
+            part[node as usize]
+        };
+        rows[to as usize].push(node);
+    }
+    let mut parts = Vec::with_capacity(nparts as usize);
+    let mut end = 0;
+    for part in &rows[..nparts as usize] {
+        parts.push(end..end + part.len());
+        end += part.len();
+    }
+    (rows.concat(), parts)
+}
+
 /// Springs to the ground at these rows: without any, a body that floats has motions without stiffness, which no level of
 /// a hierarchy can distinguish from others. Together they are about as stiff as what the body rests on: E times the diameter of
 /// the contact, where a node has E times the size of an element.
@@ -267,10 +278,7 @@ pub(super) fn stiffen(matrix: &mut Blocks<3, 3>, rows: &[u32], part: f64) {
 
 /// The nodes of each connected body, in their order.
 fn bodies(kept: &Kept, nnode: usize) -> Vec<Vec<u32>> {
-    let near = |node: u32| {
-        let ends = kept.bulk.row_start.get(node as usize..node as usize + 2);
-        ends.map_or(&[][..], |ends| &kept.bulk.column[ends[0]..ends[1]])
-    };
+    let near = |node: u32| kept.bulk.columns(node);
     let mut seen = vec![false; nnode];
     let mut bodies = Vec::new();
     for first in 0..nnode as u32 {

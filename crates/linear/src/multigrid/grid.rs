@@ -9,7 +9,7 @@ use super::hierarchy::Hierarchy;
 use super::krylov::{self, End, Operators, Stop};
 use super::nodal::{Component, Units, components};
 use super::springs;
-use super::values::{fill, fingerprint};
+use super::values::{Means, fill, fingerprint};
 use crate::error::LinearError;
 use crate::norm::largest;
 use crate::operator::apply;
@@ -175,11 +175,7 @@ impl Wanted {
 }
 
 /// Rows of bodies that float where contact holds what nothing else does.
-pub(super) fn supports(fine: &Fine, kept: &Kept, values: &Values) -> Vec<u32> {
-    if fine.floating.is_empty() {
-        return Vec::new();
-    }
-    let touched = touched(kept, values);
+pub(super) fn supports(fine: &Fine, touched: &[bool]) -> Vec<u32> {
     let is_touched = |&row: &u32| touched[fine.node[row as usize] as usize];
     fine.floating.iter().copied().filter(is_touched).collect()
 }
@@ -338,7 +334,13 @@ impl Grid {
             }
         }
         let is_worn = self.worn > 1;
-        let springs = supports(&self.fine, kept, values);
+        let springs = match self.fine.floating.is_empty() {
+            true => Vec::new(),
+            false => supports(
+                &self.fine,
+                &touched(kept, values, Means::Here(kept, values)),
+            ),
+        };
         let [few, many] = [&springs, &self.springs].map(Vec::len);
         let (few, many) = (few.min(many), few.max(many));
         let damping = alone::strength(kept, values, &self.fine);

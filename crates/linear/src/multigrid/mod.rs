@@ -66,6 +66,7 @@ use grid::{Grid, Start, Wanted};
 #[cfg(feature = "mpi")]
 pub use petsc::Petsc;
 use rayon::prelude::*;
+use signorini_ranks::Ranks;
 use std::any::Any;
 use values::CHUNK;
 
@@ -241,6 +242,10 @@ impl Iterative for Multigrid {
         enough: f64,
     ) -> Result<SolveReport, LinearError> {
         self.solve_by(values, rhs, x, Wanted::Part { part, enough })
+    }
+
+    fn ranks(&self) -> Option<&'static dyn Ranks> {
+        None
     }
 
     fn wants_start(&self, id: u64) -> bool {

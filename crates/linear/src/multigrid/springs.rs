@@ -16,6 +16,7 @@
 use super::blocks::Blocks;
 use super::fine::Fine;
 use super::packed::Packed;
+use super::values::Means;
 use crate::problem::{Kept, Values};
 use crate::sparsity::NONE;
 
@@ -57,13 +58,14 @@ impl<const N: usize> Springs<N> {
 /// The rows of all multipliers over the finest level, in units of springs about as stiff as the node that each acts on
 /// most; `None` where there are none.
 pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>> {
-    rows_and_strengths(kept, values, fine).0
+    rows_and_strengths(kept, values, Means::Here(kept, values), fine).0
 }
 
 /// The same with the sum of the diagonal of `cᵀ c` for the row of each multiplier that acts, by its raw dof.
 pub(super) fn rows_and_strengths(
     kept: &Kept,
     values: &Values,
+    means: Means<'_>,
     fine: &Fine,
 ) -> (Option<Rows<3>>, Vec<(usize, f64)>) {
     let nbulk = 3 * kept.bulk.nrow();
@@ -86,12 +88,7 @@ pub(super) fn rows_and_strengths(
             }
         }
     }
-    let stiffness = |node: usize| {
-        let at = kept.bulk.position(node as u32, node as u32)?;
-        let block = values.bulk.get(9 * at..9 * at + 9)?;
-        let mean = (block[0] + block[4] + block[8]) / 3.0;
-        Some(mean).filter(|mean| *mean > 0.0)
-    };
+    let stiffness = |node: usize| Some(means.of(node)).filter(|mean| *mean > 0.0);
     let unit = |&(most, node): &(f64, usize)| {
         let stiffness = stiffness(node).filter(|_| most > 0.0)?;
         Some(stiffness.sqrt() / most)

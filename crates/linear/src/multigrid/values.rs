@@ -1,6 +1,32 @@
-//! Values of operators: in chunks on all threads, and by their fingerprint.
+//! Values of operators: in chunks on all threads, by their fingerprint, and how stiff nodes are.
 
+use crate::problem::{Kept, Values};
 use rayon::prelude::*;
+
+/// How stiff each node is: the mean of the diagonal of its own block in the bulk.
+#[derive(Clone, Copy)]
+pub(super) enum Means<'a> {
+    /// From rows that are all here.
+    Here(&'a Kept, &'a Values<'a>),
+    /// As a list.
+    #[cfg(feature = "mpi")]
+    Known(&'a [f64]),
+}
+
+impl Means<'_> {
+    /// That of a node; 0 where it has no row.
+    pub fn of(self, node: usize) -> f64 {
+        match self {
+            Self::Here(kept, values) => {
+                let at = kept.bulk.position(node as u32, node as u32);
+                let block = at.and_then(|at| values.bulk.get(9 * at..9 * at + 9));
+                block.map_or(0.0, |b| (b[0] + b[4] + b[8]) / 3.0)
+            }
+            #[cfg(feature = "mpi")]
+            Self::Known(means) => means.get(node).copied().unwrap_or(0.0),
+        }
+    }
+}
 
 /// Entries handled by one task.
 pub(super) const CHUNK: usize = 8192;

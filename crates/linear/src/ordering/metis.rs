@@ -48,10 +48,37 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     is_well.then(|| order.into_iter().map(|v| v as u32).collect())
 }
 
+/// Shares out vertices among so many parts: the part of each, from all neighbours of each. The same graph gives the same
+/// parts.
+pub(crate) fn share_out<I: Iterator<Item = u32>>(
+    nvertex: usize,
+    near: impl Fn(u32) -> I,
+    nparts: usize,
+) -> Vec<u32> {
+    let mut start = Vec::with_capacity(nvertex + 1);
+    let mut neighbour = Vec::new();
+    start.push(0);
+    for vertex in 0..nvertex as u32 {
+        neighbour.extend(near(vertex));
+        start.push(neighbour.len());
+    }
+    let graph = Graph {
+        weight: start
+            .windows(2)
+            .map(|ends| (ends[1] - ends[0]) as u32 + 1)
+            .collect(),
+        start,
+        neighbour,
+    };
+    partition(&graph, nparts).unwrap_or_else(|| {
+        let part = |vertex: usize| (vertex * nparts / nvertex) as u32;
+        (0..nvertex).map(part).collect()
+    })
+}
+
 /// Parts of a graph with about the same weight and few edges between them: the part of each vertex. `None` as for
 /// [`nested_dissection`], and where there are fewer than two parts.
-#[cfg(feature = "mpi")]
-pub(super) fn partition(graph: &Graph, nparts: usize) -> Option<Vec<u32>> {
+fn partition(graph: &Graph, nparts: usize) -> Option<Vec<u32>> {
     let Lists {
         mut nvertex,
         mut start,
@@ -200,7 +227,6 @@ mod tests {
         }
     }
 
-    #[cfg(feature = "mpi")]
     #[test]
     fn parts_are_about_as_large_and_repeat() {
         for nparts in [2, 3, 7] {

@@ -15,7 +15,7 @@
 //! elimination tree, so that columns of like pattern lie side by side.
 
 mod graph;
-mod metis;
+pub(crate) mod metis;
 
 use crate::error::LinearError;
 use crate::lists::Lists;
@@ -51,35 +51,6 @@ pub(crate) fn order(
     ordering: Ordering,
 ) -> Result<Vec<u32>, LinearError> {
     order_groups(problem, matrix, &groups(problem, matrix), ordering)
-}
-
-/// Shares out vertices among so many parts: the part of each, from all neighbours of each. The same graph gives the same
-/// parts.
-#[cfg(feature = "mpi")]
-pub(crate) fn share_out<I: Iterator<Item = u32>>(
-    nvertex: usize,
-    near: impl Fn(u32) -> I,
-    nparts: usize,
-) -> Vec<u32> {
-    let mut start = Vec::with_capacity(nvertex + 1);
-    let mut neighbour = Vec::new();
-    start.push(0);
-    for vertex in 0..nvertex as u32 {
-        neighbour.extend(near(vertex));
-        start.push(neighbour.len());
-    }
-    let graph = Graph {
-        weight: start
-            .windows(2)
-            .map(|ends| (ends[1] - ends[0]) as u32 + 1)
-            .collect(),
-        start,
-        neighbour,
-    };
-    metis::partition(&graph, nparts).unwrap_or_else(|| {
-        let part = |vertex: usize| (vertex * nparts / nvertex) as u32;
-        (0..nvertex).map(part).collect()
-    })
 }
 
 /// The same, in groups that are known.

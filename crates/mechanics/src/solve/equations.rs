@@ -5,6 +5,7 @@ use signorini_linear::sparsity::NONE;
 use signorini_linear::{
     EXACT, FieldBlock, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
 };
+use signorini_ranks::Ranks;
 use std::time::Instant;
 
 /// Wall time spent in the linear solver, in seconds.
@@ -90,6 +91,11 @@ impl Equations {
         self.solver.iterative().is_some_and(|s| s.iterates())
     }
 
+    /// The ranks that the solver takes the rows of bodies from, divided; none: it takes all.
+    pub fn ranks(&self) -> Option<&'static dyn Ranks> {
+        self.solver.iterative().and_then(|s| s.ranks())
+    }
+
     /// What the solver has decided since it was asked last.
     pub fn notes(&mut self) -> Vec<Note> {
         self.solver
@@ -151,7 +157,7 @@ impl Equations {
         for dof in 0..layout.ndof() as Dof {
             let name = layout.name(dof);
             let node = name.and_then(DofName::displacement).map(|(node, _)| node);
-            let in_bulk = node.is_some_and(|n| assembler.bulk().position(n, n).is_some());
+            let in_bulk = node.is_some_and(|n| assembler.bulk().has_row(n));
             let used = in_bulk || assembler.interface().position(dof, dof).is_some();
             let free = !prescribed.get(dof as usize).copied().unwrap_or(false);
             if used && free {
@@ -244,6 +250,10 @@ impl Equations {
                 du,
                 &mut self.response,
             );
+            let bulk = assembler.bulk();
+            if let Some(partition) = &bulk.partition {
+                partition.complete(bulk.block, [&mut self.response])?;
+            }
             for (b, &dof) in self.right.iter_mut().zip(&self.dofs) {
                 *b -= self.response[dof as usize];
             }

@@ -105,6 +105,9 @@ impl Newton {
             ..
         } = system;
         let mut mass = Assembly::default();
+        if self.assembler.take_all_rows(layout, elimination, terms) {
+            self.analyzed = false;
+        }
         let (assembler, stiffness) = (&mut self.assembler, &mut self.assembly);
         let trial = &self.trial;
         let has_mass = |term: &dyn Term| term.properties().role == Role::Inertia;

@@ -4,7 +4,7 @@ use super::assembly::{Assembly, Shared, Task, reset};
 use super::buffer::{Buffer, Slot};
 use super::elimination::Expanded;
 use super::setting::Setting;
-use super::shares::share_out;
+use super::shares::{Share, share_out};
 use super::strip::{bulk, find_blocks};
 use super::{
     Dof, Elimination, InitialStiffness, Layout, Lifetime, Order, Part, PatternSink, Role, State,
@@ -13,6 +13,7 @@ use super::{
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 use signorini_linear::sparsity::{BlockPattern, Pattern};
+use signorini_ranks::Ranks;
 
 /// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of the sums is in cache.
 const PER_THREAD: usize = 4;
@@ -46,6 +47,8 @@ pub struct Assembler {
     pub(super) period: u64,
     /// The elements that the bulk has places for, by [`Properties::elements`](super::Properties::elements).
     pub(super) built_for: u64,
+    /// The ranks that the rows of the bulk are divided among in steps; none: each has all.
+    pub(super) ranks: Option<&'static dyn Ranks>,
 }
 
 /// Cliques of a pattern, as they come.
@@ -62,10 +65,15 @@ pub(super) struct Cliques<'a> {
 }
 
 impl Cliques<'_> {
-    /// The pattern of the bulk.
-    fn of_bulk(&self) -> BlockPattern {
+    /// The pattern of the bulk: all rows, or those of this rank.
+    fn of_bulk(&self, ranks: Option<&'static dyn Ranks>) -> BlockPattern {
         let (nodes, offsets) = (&self.bulk, &self.bulk_offsets);
-        BlockPattern::from_cliques(self.layout.nnode(), self.layout.ndim(), nodes, offsets)
+        let (nnode, ndim) = (self.layout.nnode(), self.layout.ndim());
+        let whole = BlockPattern::from_cliques(nnode, ndim, nodes, offsets);
+        match ranks {
+            Some(ranks) => whole.divided(ranks),
+            None => whole,
+        }
     }
 
     /// The pattern of the interface.
@@ -117,7 +125,20 @@ impl Assembler {
     #[must_use]
     pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
         let cliques = collect(layout, elimination, terms);
-        Self::with(cliques.of_bulk(), &cliques, terms)
+        Self::with(cliques.of_bulk(None), &cliques, terms, None)
+    }
+
+    /// The same with the rows of the bulk divided among these ranks: each evaluates the elements that touch its rows. Forces
+    /// are those of all elements on every rank. An entry has the same bits however many ranks there are.
+    #[must_use]
+    pub fn divided(
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        ranks: &'static dyn Ranks,
+    ) -> Self {
+        let cliques = collect(layout, elimination, terms);
+        Self::with(cliques.of_bulk(Some(ranks)), &cliques, terms, Some(ranks))
     }
 
     /// Prepares the assembly of the same terms as if for the first time: their bulk is the same.
@@ -128,10 +149,16 @@ impl Assembler {
         elimination: &Elimination,
         terms: &[Box<dyn Term>],
     ) -> Self {
-        Self::with(self.bulk, &collect(layout, elimination, terms), terms)
+        let cliques = collect(layout, elimination, terms);
+        Self::with(self.bulk, &cliques, terms, self.ranks)
     }
 
-    fn with(bulk: BlockPattern, cliques: &Cliques<'_>, terms: &[Box<dyn Term>]) -> Self {
+    fn with(
+        bulk: BlockPattern,
+        cliques: &Cliques<'_>,
+        terms: &[Box<dyn Term>],
+        ranks: Option<&'static dyn Ranks>,
+    ) -> Self {
         let mut assembler = Self {
             tasks: Vec::new(),
             shared: None,
@@ -142,6 +169,7 @@ impl Assembler {
             lasts: Lifetime::State,
             period: 0,
             built_for: 0,
+            ranks,
         };
         assembler.built_for = elements_of(terms);
         assembler.begin_increment(terms);
@@ -157,13 +185,41 @@ impl Assembler {
     ) -> bool {
         self.period += 1;
         let now = elements_of(terms);
-        if std::mem::replace(&mut self.built_for, now) == now {
+        let is_same = std::mem::replace(&mut self.built_for, now) == now;
+        if is_same && self.bulk.partition.is_some() == self.ranks.is_some() {
             return false;
         }
-        self.bulk = collect(layout, elimination, terms).of_bulk();
+        self.place(layout, elimination, terms, self.ranks);
+        true
+    }
+
+    /// Gives each rank all rows until the next step begins: for what solves by itself. Says whether the pattern was made
+    /// again.
+    pub fn take_all_rows(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+    ) -> bool {
+        let is_divided = self.bulk.partition.is_some();
+        if is_divided {
+            self.place(layout, elimination, terms, None);
+            self.take_up(terms);
+        }
+        is_divided
+    }
+
+    /// Makes the pattern of the bulk again, all of it or divided among ranks.
+    fn place(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        ranks: Option<&'static dyn Ranks>,
+    ) {
+        self.bulk = collect(layout, elimination, terms).of_bulk(ranks);
         self.tasks.clear();
         self.shared = None;
-        true
     }
 
     /// Takes up the chunks of the terms, whose numbers may be others in each increment.
@@ -197,6 +253,8 @@ impl Assembler {
                 chunk,
                 part,
                 is_known: false,
+                first_rank: 0,
+                is_here: true,
                 positions: Vec::new(),
             }));
             if part == Part::Bulk {
@@ -235,17 +293,30 @@ impl Assembler {
                 return;
             };
             let mut depends = false;
+            let mut has_elements = false;
+            let (mut is_here, mut first_rank) = (bulk.partition.is_none(), usize::MAX);
             elementwise.elements(task.chunk, &mut |nodes| {
                 let mut dofs = nodes.iter().flat_map(|&node| {
                     let axes = 0..layout.ndim();
                     axes.map(move |axis| layout.node(node, axis))
                 });
                 depends |= dofs.any(|dof| elimination.depends(dof, layout));
-                find_blocks(bulk, nodes, &mut task.positions);
+                has_elements |= !nodes.is_empty();
+                if let Some(partition) = &bulk.partition {
+                    is_here |= nodes.iter().any(|&node| partition.is_own(node));
+                    let ranks = nodes.iter().filter_map(|&node| partition.owner(node));
+                    first_rank = first_rank.min(ranks.min().unwrap_or(0));
+                }
             });
-            task.is_known = !depends && !task.positions.is_empty();
-            if depends {
-                task.positions.clear();
+            task.is_known = has_elements && !depends;
+            if !task.is_known {
+                return;
+            }
+            (task.is_here, task.first_rank) = (is_here, first_rank);
+            if is_here {
+                elementwise.elements(task.chunk, &mut |nodes| {
+                    find_blocks(bulk, nodes, &mut task.positions);
+                });
             }
         };
         if known.is_none() {
@@ -259,10 +330,18 @@ impl Assembler {
                 term.elements(tasks[at].chunk, take);
             }
         };
+        let here: Vec<usize> = (0..ntask).filter(|&at| tasks[at].is_here).collect();
+        let mut shares = share_out(nthread, layout.nnode(), &here, elements);
+        if shares.is_empty() && self.bulk.partition.is_some() {
+            shares.push(Share {
+                end: layout.nnode(),
+                chunks: here,
+            });
+        }
         self.shared = Some(Shared {
             ntask,
             nthread,
-            shares: share_out(nthread, layout.nnode(), ntask, elements),
+            shares,
         });
         if self.slots.len() < nthread {
             self.slots.resize_with(nthread, Slot::default);
@@ -367,6 +446,7 @@ impl Assembler {
             Part::Interface => of_interface,
         };
         stays &= setting.run(evaluate, size, tasks, slots, expanded, out)?;
+        out.complete(bulk, order)?;
         if stays {
             out.bulk_of = Some(*period);
         }
@@ -469,7 +549,7 @@ impl Assembler {
         };
         let size = wave(Order::Tangent);
         setting.run(evaluate, |_| size, tasks, slots, expanded, out)?;
-        Ok(())
+        out.complete(bulk, Order::Tangent)
     }
 
     /// Whether the stiffness of the bulk is the same at all states of the increment.
@@ -537,16 +617,23 @@ impl Assembler {
         terms: &[Box<dyn Term>],
         trial: &State,
     ) -> Result<Option<f64>, TermError> {
-        let mut total = 0.0;
+        let rank = self.ranks.map_or(0, |ranks| ranks.rank());
+        let is_divided = self.bulk.partition.is_some();
         let size = wave(Order::Residual).min(self.slots.len()).max(1);
+        let mut energies = Vec::with_capacity(self.tasks.len());
+        let mut end = None;
         for wave in self.tasks.chunks(size) {
             let evaluate = |(slot, task): (&mut Slot, &Task)| {
-                let energy = terms[task.term].energy(task.chunk, trial, &mut slot.work);
                 // nothing stays of a wave before it
-                (slot.energy, slot.failure) = match energy {
-                    Ok(energy) => (energy, None),
-                    Err(failure) => (None, Some(failure)),
-                };
+                slot.failure = None;
+                slot.energy = Some(0.0);
+                if is_divided && task.is_known && task.first_rank != rank {
+                    return;
+                }
+                match terms[task.term].energy(task.chunk, trial, &mut slot.work) {
+                    Ok(energy) => slot.energy = energy,
+                    Err(failure) => slot.failure = Some(failure),
+                }
             };
             if wave.len() == 1 {
                 self.slots.iter_mut().zip(wave).for_each(evaluate);
@@ -554,16 +641,59 @@ impl Assembler {
                 self.slots.par_iter_mut().zip(wave).for_each(evaluate);
             }
             for (slot, _) in self.slots.iter_mut().zip(wave) {
-                if let Some(failure) = slot.failure.take() {
-                    return Err(failure);
+                match (slot.failure.take(), slot.energy) {
+                    (None, Some(energy)) => energies.push(energy),
+                    (failure, _) => end = end.or(Some(failure)),
                 }
-                match slot.energy {
-                    Some(energy) => total += energy,
-                    None => return Ok(None),
+                if end.is_some() {
+                    break;
                 }
             }
+            if end.is_some() {
+                break;
+            }
         }
-        Ok(Some(total))
+        let first = match &self.bulk.partition {
+            Some(partition) => {
+                let own = end.as_ref().map_or(usize::MAX, |_| energies.len());
+                partition.least(own as u64).map_err(TermError::Ranks)? as usize
+            }
+            None => energies.len(),
+        };
+        match end {
+            Some(failure) if first == energies.len() => return failure.map_or(Ok(None), Err),
+            _ => {}
+        }
+        if let (Some(task), true) = (self.tasks.get(first), is_divided) {
+            // on another rank: what it is, each finds for itself
+            let mut work = Work::default();
+            terms[task.term].energy(task.chunk, trial, &mut work)?;
+            return Ok(None);
+        }
+        self.fetch_energies(&mut energies)?;
+        Ok(Some(
+            energies.into_iter().fold(0.0, |sum, energy| sum + energy),
+        ))
+    }
+
+    /// Fetches the energies of the tasks that other ranks evaluate.
+    fn fetch_energies(&self, energies: &mut [f64]) -> Result<(), TermError> {
+        let Some(partition) = &self.bulk.partition else {
+            return Ok(());
+        };
+        let (rank, size) = (partition.ranks().rank(), partition.ranks().size());
+        let known = self.tasks.iter().enumerate().filter(|(_, t)| t.is_known);
+        let mut of_ranks: Vec<Vec<usize>> = vec![Vec::new(); size];
+        known.for_each(|(at, task)| of_ranks[task.first_rank].push(at));
+        let own: Vec<f64> = of_ranks[rank].iter().map(|&at| energies[at]).collect();
+        let counts: Vec<usize> = of_ranks.iter().map(Vec::len).collect();
+        let mut all = vec![0.0; counts.iter().sum()];
+        let gathered = partition.all_gather(&own, &counts, &mut all);
+        gathered.map_err(TermError::Ranks)?;
+        for (at, energy) in of_ranks.into_iter().flatten().zip(all) {
+            energies[at] = energy;
+        }
+        Ok(())
     }
 }
 

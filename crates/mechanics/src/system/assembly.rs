@@ -1,9 +1,10 @@
 //! An assembled system.
 
-use super::Part;
 use super::shares::Share;
+use super::{Order, Part, TermError};
 use rayon::prelude::*;
 use signorini_linear::Values;
+use signorini_linear::sparsity::BlockPattern;
 
 /// Entries that are set to zero by one task.
 pub(super) const ENTRIES: usize = 1 << 16;
@@ -21,6 +22,17 @@ pub struct Assembly {
     pub(super) interface: Vec<f64>,
     /// The period of which the bulk is, where it holds for all states in it.
     pub(super) bulk_of: Option<u64>,
+    /// What is known of the bulk where its rows are divided.
+    pub(super) of_ranks: Option<OfRanks>,
+}
+
+/// What every rank needs of a bulk whose rows are divided among them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct OfRanks {
+    /// The entry of each unknown on the diagonal.
+    pub diagonal: Vec<f64>,
+    /// The size of the largest entry.
+    pub largest: f64,
 }
 
 impl Assembly {
@@ -32,6 +44,49 @@ impl Assembly {
             &mut self.uncertainty,
         ] {
             reset(values, ndof);
+        }
+    }
+
+    /// Fetches from other ranks the forces at their nodes with their uncertainty, and of a tangent what every rank needs.
+    pub(super) fn complete(&mut self, bulk: &BlockPattern, order: Order) -> Result<(), TermError> {
+        self.of_ranks = self.of_ranks.take().filter(|_| bulk.partition.is_some());
+        let Some(partition) = &bulk.partition else {
+            return Ok(());
+        };
+        let Self {
+            residual,
+            magnitude,
+            uncertainty,
+            ..
+        } = self;
+        let forces = [residual, magnitude, uncertainty];
+        let fetched = partition.complete(bulk.block, forces.map(Vec::as_mut_slice));
+        fetched.map_err(TermError::Ranks)?;
+        if order == Order::Residual {
+            return Ok(());
+        }
+        let ndim = bulk.block;
+        let of_ranks = self.of_ranks.get_or_insert_default();
+        reset(&mut of_ranks.diagonal, bulk.nrow() * ndim);
+        for &node in partition.own() {
+            let block = bulk.position(node, node).unwrap_or_default() * ndim * ndim;
+            let entries = self.bulk.get(block..).unwrap_or_default();
+            let entries = entries.iter().step_by(ndim + 1).take(ndim);
+            let places = of_ranks.diagonal.iter_mut().skip(node as usize * ndim);
+            places.zip(entries).for_each(|(to, entry)| *to = *entry);
+        }
+        let fetched = partition.complete(ndim, [&mut of_ranks.diagonal]);
+        fetched.map_err(TermError::Ranks)?;
+        let own = self.bulk.iter().fold(0.0, |most: f64, k| most.max(k.abs()));
+        of_ranks.largest = partition.largest(own).map_err(TermError::Ranks)?;
+        Ok(())
+    }
+
+    /// The largest entry of the bulk, on whatever rank it is.
+    pub(super) fn largest_of_bulk(&self) -> f64 {
+        match &self.of_ranks {
+            Some(of_ranks) => of_ranks.largest,
+            None => self.bulk.iter().fold(0.0, |most: f64, k| most.max(k.abs())),
         }
     }
 
@@ -60,6 +115,10 @@ pub(super) struct Task {
     pub part: Part,
     /// Whether its elements are known, and none has unknowns that follow others.
     pub is_known: bool,
+    /// Where rows are divided among ranks: the first rank whose rows a known one touches, and whether this one's are among
+    /// them.
+    pub first_rank: usize,
+    pub is_here: bool,
     // where the blocks of each element of the chunk go, in order; found once
     pub positions: Vec<u32>,
 }

@@ -55,7 +55,8 @@ impl Setting<'_> {
         let mut rest = tasks;
         if let Some(shared) = self.shared.filter(|shared| !shared.shares.is_empty()) {
             let (tasks, others) = rest.split_at_mut(shared.ntask);
-            self.run_shared(&evaluate, &shared.shares, tasks, slots, out)?;
+            let outcome = self.run_shared(&evaluate, &shared.shares, tasks, slots, out);
+            self.agree_on(outcome, &evaluate, tasks, slots)?;
             rest = others;
         }
         while let Some(first) = rest.first() {
@@ -77,7 +78,33 @@ impl Setting<'_> {
         Ok(is_apart)
     }
 
-    /// Evaluates and adds the chunks that are shared out.
+    /// The first failure of all ranks, which each evaluates for itself.
+    fn agree_on(
+        self,
+        outcome: Result<(), (usize, TermError)>,
+        evaluate: &impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError>,
+        tasks: &[Task],
+        slots: &mut [Slot],
+    ) -> Result<(), TermError> {
+        let Some(partition) = &self.bulk.partition else {
+            return outcome.map_err(|(_, failure)| failure);
+        };
+        let own = outcome
+            .as_ref()
+            .err()
+            .map_or(u64::MAX, |(at, _)| *at as u64);
+        let first = partition.least(own).map_err(TermError::Ranks)?;
+        match (outcome, tasks.get(first as usize), slots.first_mut()) {
+            (Err((at, failure)), ..) if at as u64 == first => Err(failure),
+            (_, Some(task), Some(Slot { buffer, work, .. })) => {
+                buffer.clear();
+                evaluate(task, work, buffer)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Evaluates and adds the chunks that are shared out; fails with the first that fails.
     pub fn run_shared(
         self,
         evaluate: &(impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync),
@@ -85,7 +112,7 @@ impl Setting<'_> {
         tasks: &[Task],
         slots: &mut [Slot],
         out: &mut Assembly,
-    ) -> Result<(), TermError> {
+    ) -> Result<(), (usize, TermError)> {
         let ends: Vec<usize> = shares.iter().map(|share| share.end).collect();
         let strips = self.strips_to(&ends[..ends.len().saturating_sub(1)], out);
         let all = strips.into_par_iter().zip(shares).zip(slots);
@@ -102,7 +129,7 @@ impl Setting<'_> {
             })
         });
         match first.min_by_key(|(chunk, _)| *chunk) {
-            Some((_, failure)) => Err(failure),
+            Some(failure) => Err(failure),
             None => Ok(()),
         }
     }

@@ -43,14 +43,15 @@ pub(super) fn divide(npart: usize, nnode: usize, nodes: &mut [NodeId]) -> Vec<us
 pub(super) fn share_out(
     nthread: usize,
     nnode: usize,
-    nchunk: usize,
+    all: &[usize],
     elements: impl Fn(usize, &mut dyn FnMut(&[NodeId])),
 ) -> Vec<Share> {
+    let nchunk = all.len();
     if nthread < 2 || nchunk < CHUNKS * nthread {
         return Vec::new();
     }
     let mut firsts: Vec<NodeId> = Vec::new();
-    for chunk in 0..nchunk {
+    for &chunk in all {
         elements(chunk, &mut |nodes| firsts.extend(nodes.first()));
     }
     let mut ends = divide(nthread, nnode, &mut firsts);
@@ -61,7 +62,7 @@ pub(super) fn share_out(
     };
     let mut shares: Vec<Share> = ends.iter().map(share).collect();
     let mut touched = vec![false; nthread];
-    for chunk in 0..nchunk {
+    for &chunk in all {
         touched.fill(false);
         elements(chunk, &mut |nodes| {
             for &node in nodes {
@@ -86,7 +87,8 @@ mod tests {
     /// Chunks of four bars between nodes of these numbers.
     fn of_chain(number: &[NodeId], nthread: usize) -> Vec<Share> {
         let nbar = number.len() - 1;
-        share_out(nthread, number.len(), nbar / 4, |chunk, take| {
+        let chunks: Vec<usize> = (0..nbar / 4).collect();
+        share_out(nthread, number.len(), &chunks, |chunk, take| {
             let bars = number.windows(2).skip(4 * chunk).take(4);
             bars.for_each(take);
         })

@@ -2,6 +2,7 @@
 
 use super::Dof;
 use signorini_geometry::mesh::NodeId;
+use signorini_linear::LinearError;
 use std::any::Any;
 use thiserror::Error;
 
@@ -82,6 +83,9 @@ pub enum TermError {
         /// Who refuses what, and why.
         message: String,
     },
+    /// Ranks do not hear one another.
+    #[error("{0}")]
+    Ranks(LinearError),
     /// A contact surface has no answer.
     #[error("contact \"{interface}\": {message}")]
     Surface {

@@ -34,28 +34,28 @@ impl Assembler {
 
     /// Whether the stiffness of bodies is lost in the rounding errors of the stiffness between them.
     pub fn hides_bodies(&self, out: &Assembly) -> bool {
-        let [bulk, interface] = [&out.bulk, &out.interface].map(|values| largest(values));
-        bulk.zip(interface).is_some_and(|(k, i)| i.1 > HIDING * k.1)
+        let has_bodies = self.bulk.partition.is_some() || !out.bulk.is_empty();
+        let interface = largest(&out.interface).filter(|_| has_bodies);
+        interface.is_some_and(|(_, i)| i > HIDING * out.largest_of_bulk())
     }
 
     /// Adds the largest stiffness there is to the diagonal at a dof, and returns it; `None` where it has no place.
     pub fn stiffen(&self, dof: Dof, out: &mut Assembly) -> Option<f64> {
-        let all = out.bulk.iter().chain(&out.interface);
-        let stiffness = all.fold(0.0, |most: f64, k| most.max(k.abs()));
+        let interface = out.interface.iter();
+        let stiffness = interface.fold(out.largest_of_bulk(), |most: f64, k| most.max(k.abs()));
         let (ndim, node) = (self.bulk.block, dof / self.bulk.block.max(1) as u32);
-        let of_block = (node as usize) < self.bulk.nrow();
-        let block = of_block.then(|| self.bulk.position(node, node)).flatten();
-        let to = match block {
-            Some(block) => {
+        let of_block = (node as usize) < self.bulk.nrow() && self.bulk.has_row(node);
+        if of_block {
+            // one rank has the row
+            let place = self.bulk.position(node, node).and_then(|block| {
                 let axis = dof as usize % ndim;
                 out.bulk.get_mut(block * ndim * ndim + axis * (ndim + 1))
-            }
-            None => {
-                let position = self.interface.position(dof, dof)?;
-                out.interface.get_mut(position)
-            }
-        };
-        *to? += stiffness;
+            });
+            place.into_iter().for_each(|to| *to += stiffness);
+        } else {
+            let position = self.interface.position(dof, dof)?;
+            *out.interface.get_mut(position)? += stiffness;
+        }
         out.bulk_of = None;
         Some(stiffness)
     }
@@ -108,7 +108,7 @@ impl Assembler {
 
     /// The largest entry of the stiffness of the bodies.
     pub fn stiffest(of: &Assembly) -> f64 {
-        of.bulk.iter().fold(0.0, |most: f64, k| most.max(k.abs()))
+        of.largest_of_bulk()
     }
 
     /// The entry of an unknown on the diagonal of a tangent.
@@ -117,7 +117,10 @@ impl Assembler {
         let in_bulk = (node as usize) < self.bulk.nrow();
         let block = in_bulk.then(|| self.bulk.position(node, node)).flatten();
         let place = block.map(|block| block * ndim * ndim + dof as usize % ndim * (ndim + 1));
-        let of_bulk = place.and_then(|at| of.bulk.get(at));
+        let of_bulk = match &of.of_ranks {
+            Some(of_ranks) => of_ranks.diagonal.get(dof as usize),
+            None => place.and_then(|at| of.bulk.get(at)),
+        };
         let position = self.interface.position(dof, dof);
         let of_interface = position.and_then(|at| of.interface.get(at));
         of_bulk.copied().unwrap_or_default() + of_interface.copied().unwrap_or_default()

@@ -5,6 +5,8 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use signorini_linear::apply;
+use signorini_linear::sparsity::BlockPattern;
+use signorini_ranks::{Ranks, on_threads};
 
 /// Numbers in [-1, 1] that look random and are the same in every run.
 fn noise(k: usize) -> f64 {
@@ -488,6 +490,128 @@ fn what_threads_share_out_is_the_same_whoever_adds_it_up() {
         let (found, _) = run(threads, [true, true], &[290, 140, 7]);
         for (done, _) in found {
             assert!(done.unwrap_err().contains("chunk 7"), "{threads}");
+        }
+    }
+}
+
+/// What a rank has assembled.
+struct Assembled {
+    done: Result<(), String>,
+    out: Assembly,
+    pattern: BlockPattern,
+    energy: Result<Option<f64>, String>,
+    /// Chunks of known elements that it has evaluated.
+    nevaluated: usize,
+}
+
+/// Tangent, residual and energy with the rows of the bulk divided among ranks, or with all rows here.
+fn assembled(
+    (layout, elimination): (&Layout, &Elimination),
+    terms: &[Box<dyn Term>],
+    state: &State,
+    ranks: Option<&'static dyn Ranks>,
+) -> Assembled {
+    let mut assembler = match ranks {
+        Some(ranks) => Assembler::divided(layout, elimination, terms, ranks),
+        None => Assembler::new(layout, elimination, terms),
+    };
+    let mut out = Assembly::default();
+    let mut done = Ok(());
+    for order in [Order::Residual, Order::Tangent] {
+        done = done
+            .and_then(|()| assembler.assemble(layout, elimination, terms, state, order, &mut out));
+    }
+    Assembled {
+        done: done.map_err(|e| e.to_string()),
+        energy: assembler.energy(terms, state).map_err(|e| e.to_string()),
+        pattern: assembler.bulk().clone(),
+        nevaluated: assembler.shared.map_or(0, |shared| {
+            shared.shares.iter().map(|share| share.chunks.len()).sum()
+        }),
+        out,
+    }
+}
+
+#[test]
+fn the_bits_do_not_depend_on_the_number_of_ranks() {
+    let scenes = PARTS.map(|part| Scene::new(3, part, 120));
+    let mut chain = Scene::new(3, Part::Bulk, 400);
+    (chain.layout, chain.elimination) = (Layout::new(3, 400, 0), Elimination::default());
+    let ends: Vec<[NodeId; 2]> = (1..400).map(|k| [k - 1, k]).collect();
+    let springs = |part, is_told| -> Box<dyn Term> {
+        let all = Springs::new(part, chain.layout, &chain.reference, ends.clone());
+        Box::new(Springs { is_told, ..all })
+    };
+    chain.terms = vec![
+        springs(Part::Interface, true),
+        springs(Part::Bulk, true),
+        springs(Part::Bulk, false),
+    ];
+    for scene in scenes.iter().chain([&chain]) {
+        let of = (&scene.layout, &scene.elimination);
+        let one = assembled(of, &scene.terms, &scene.state, None);
+        assert_eq!(one.done, Ok(()));
+        let diagonal = |node: u32| {
+            let at = one.pattern.position(node, node)?;
+            Some([0, 4, 8].map(|k| one.out.values().bulk[9 * at + k]))
+        };
+        for size in 1..=4 {
+            let (all, _) = on_threads(size, |ranks| {
+                assembled(of, &scene.terms, &scene.state, Some(ranks))
+            });
+            let blocks = all.iter().map(|rank| rank.pattern.nblock());
+            assert_eq!(blocks.sum::<usize>(), one.pattern.nblock());
+            if scene.layout.nnode() == 400 {
+                let most = all.iter().map(|rank| rank.nevaluated).max();
+                assert!(most.unwrap() <= 200 / size + 10, "{most:?} on {size}");
+                let most = all.iter().map(|rank| rank.pattern.nblock()).max();
+                assert!(most.unwrap() * 10 * size <= 13 * one.pattern.nblock());
+            }
+            for rank in all {
+                assert_eq!(rank.done, Ok(()));
+                assert_eq!(rank.energy, one.energy);
+                assert_eq!(rank.out.residual, one.out.residual);
+                assert_eq!(rank.out.magnitude, one.out.magnitude);
+                assert_eq!(rank.out.uncertainty, one.out.uncertainty);
+                let [own, whole] = [&rank.out, &one.out].map(Assembly::values);
+                assert_eq!(own.interface, whole.interface);
+                for (row, column) in (0..scene.layout.nnode() as u32)
+                    .flat_map(|row| rank.pattern.columns(row).iter().map(move |&c| (row, c)))
+                {
+                    let blocks = [(&rank.pattern, own), (&one.pattern, whole)];
+                    let [own, whole] = blocks.map(|(pattern, values)| {
+                        let at = pattern.position(row, column).unwrap();
+                        &values.bulk[9 * at..9 * at + 9]
+                    });
+                    assert_eq!(own, whole, "{row}, {column}");
+                }
+                // what every rank needs of the rows of others
+                let of_ranks = rank.out.of_ranks.as_ref().unwrap();
+                assert_eq!(of_ranks.largest, one.out.largest_of_bulk());
+                for node in 0..scene.layout.nnode() {
+                    let own = &of_ranks.diagonal[3 * node..3 * node + 3];
+                    assert_eq!(own, diagonal(node as u32).unwrap_or_default());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_one_rank_cannot_evaluate_fails_on_all() {
+    let mut scene = Scene::new(3, Part::Bulk, 400);
+    (scene.layout, scene.elimination) = (Layout::new(3, 400, 0), Elimination::default());
+    let ends: Vec<[NodeId; 2]> = (1..400).map(|k| [k - 1, k]).collect();
+    let springs = Springs::new(Part::Bulk, scene.layout, &scene.reference, ends);
+    let broken = vec![190, 101, 17];
+    scene.terms = vec![Box::new(Springs { broken, ..springs })];
+    let of = (&scene.layout, &scene.elimination);
+    for size in 1..=4 {
+        let (all, _) = on_threads(size, |ranks| {
+            assembled(of, &scene.terms, &scene.state, Some(ranks))
+        });
+        for rank in all {
+            assert!(rank.done.unwrap_err().contains("chunk 17"), "{size}");
         }
     }
 }

@@ -1,22 +1,25 @@
 //! One problem over all ranks: rows, hierarchy, the block of the interface, iterations.
 
 use super::super::alone;
-use super::super::block::InterfaceBlock;
+use super::super::block::{InterfaceBlock, choose};
 use super::super::blocks::Blocks;
 use super::super::fine::{Fine, hold};
 use super::super::grid::{ATTEMPTS, ITERATIONS, LEAST, Numbers, WORN, Wanted, supports};
 use super::super::krylov::{self, End, Operators};
 use super::super::springs;
-use super::super::values::fingerprint;
+use super::super::values::{Means, fingerprint};
+use super::fetched::Neighbourhood;
 use super::layout::Layout;
 use super::library::Share;
 use super::rows::{Operator, of_bodies};
 use crate::error::LinearError;
 use crate::norm::largest;
+use crate::partition::{Partition, failed};
 use crate::problem::{Kept, Values};
 use crate::residual::Residual;
 use crate::solver::{Note, SolveReport, Why};
-use signorini_ranks::{Ranks, RanksError, agree, world};
+use signorini_ranks::{Ranks, agree};
+use std::sync::Arc;
 
 /// The part of the springs of multipliers that may be other ones before there is a new hierarchy.
 const TOLERATED: f64 = 0.5;
@@ -26,6 +29,7 @@ const CHANGED: f64 = 0.1;
 /// What serves one problem.
 pub(super) struct Fleet {
     ranks: &'static dyn Ranks,
+    partition: Arc<Partition>,
     fine: Fine,
     numbers: Numbers,
     layout: Layout,
@@ -34,6 +38,8 @@ pub(super) struct Fleet {
     /// Whether the library has the pattern of the operator.
     is_placed: bool,
     block: InterfaceBlock,
+    /// The rows of the block.
+    neighbourhood: Neighbourhood,
     near: Near,
     hierarchy: Source,
     /// Whether iterations did not come to an end in this increment: the next ones would not, either.
@@ -83,21 +89,22 @@ impl Source {
 }
 
 impl Fleet {
-    /// One for a problem.
+    /// One for a problem whose rows are divided like this.
     ///
     /// # Errors
     /// `Library` where PETSc does not start.
-    pub fn new(kept: &Kept) -> Result<Self, LinearError> {
-        let ranks = world();
+    pub fn new(kept: &Kept, partition: &Arc<Partition>) -> Result<Self, LinearError> {
         let fine = Fine::new(kept);
         let numbers = Numbers::new(kept, &fine);
-        let layout = Layout::new(kept, &fine, &numbers, ranks.rank(), ranks.size());
+        let layout = Layout::new(kept, &fine, &numbers, partition);
         Ok(Self {
-            ranks,
+            ranks: partition.ranks(),
+            partition: partition.clone(),
             operator: Operator::new(kept, &numbers, &layout),
             share: Share::new()?,
             is_placed: false,
             block: InterfaceBlock::new(),
+            neighbourhood: Neighbourhood::default(),
             near: Near::default(),
             hierarchy: Source::default(),
             has_failed: false,
@@ -119,9 +126,8 @@ impl Fleet {
 
     /// Takes note of another interface, with other equations.
     pub fn follow(&mut self, kept: &Kept) {
-        let ranks = self.ranks;
         self.numbers = Numbers::new(kept, &self.fine);
-        self.layout = Layout::new(kept, &self.fine, &self.numbers, ranks.rank(), ranks.size());
+        self.layout = Layout::new(kept, &self.fine, &self.numbers, &self.partition);
         self.operator = Operator::new(kept, &self.numbers, &self.layout);
         self.is_placed = false;
         self.block = InterfaceBlock::new();
@@ -153,7 +159,10 @@ impl Fleet {
             self.share.set_operator(&self.operator.rows)?;
             self.is_placed = true;
         }
-        let outcome = self.block.update(kept, values);
+        let means = self.means(kept, values)?;
+        let touched = alone::touched(kept, values, Means::Known(&means));
+        let supports = supports(&self.fine, &touched);
+        let outcome = self.update_block(kept, values, touched)?;
         self.agree_on(&outcome)?;
         match outcome {
             Ok(()) => {}
@@ -166,8 +175,43 @@ impl Fleet {
             Err(other) => return Err(other),
         }
         self.ask(kept)?;
-        notes.extend(self.renew(kept, values)?);
+        notes.extend(self.renew(kept, values, &means, &supports)?);
         Ok(true)
+    }
+
+    /// How stiff each node is, on whatever rank its row is.
+    fn means(&self, kept: &Kept, values: &Values) -> Result<Vec<f64>, LinearError> {
+        let mut means = vec![0.0; kept.bulk.nrow()];
+        for &node in self.partition.own() {
+            means[node as usize] = Means::Here(kept, values).of(node as usize);
+        }
+        self.partition.complete(1, [&mut means])?;
+        Ok(means)
+    }
+
+    /// Chooses the equations of the block, fetches their rows and factorizes: what that comes to on this rank.
+    ///
+    /// # Errors
+    /// `Library` where messages fail.
+    fn update_block(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        touched: Vec<bool>,
+    ) -> Result<Result<(), LinearError>, LinearError> {
+        let (partition, neighbourhood) = (&self.partition, &mut self.neighbourhood);
+        neighbourhood.restart();
+        let chosen = choose(kept, touched, |nodes| {
+            let rows = neighbourhood.rows(&kept.bulk, partition, nodes)?;
+            Ok(rows.pattern.column.to_vec())
+        })?;
+        let rows = neighbourhood.rows(&kept.bulk, partition, &chosen.0)?;
+        rows.update(partition, values.bulk)?;
+        let near = Values {
+            bulk: &rows.values,
+            interface: values.interface,
+        };
+        Ok(self.block.update_at(kept, &rows.pattern, &near, chosen))
     }
 
     /// Checks that all ranks have come to the same end of what each does by itself: memory may have ended on one.
@@ -185,7 +229,7 @@ impl Fleet {
                 code: kind as i32,
                 detail: 0,
             }),
-            Err(error) => Err(library(&error)),
+            Err(error) => Err(failed(&error)),
         }
     }
 
@@ -218,8 +262,15 @@ impl Fleet {
 
     /// Makes a hierarchy where there is none, where it is worn, and where that of another increment is not what this one
     /// would have made.
-    fn renew(&mut self, kept: &Kept, values: &Values) -> Result<Option<Note>, LinearError> {
-        let (rows, springs) = springs::rows_and_strengths(kept, values, &self.fine);
+    fn renew(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        means: &[f64],
+        supports: &[u32],
+    ) -> Result<Option<Note>, LinearError> {
+        let means = Means::Known(means);
+        let (rows, springs) = springs::rows_and_strengths(kept, values, means, &self.fine);
         let source = &mut self.hierarchy;
         let serves = source.fingerprint.is_some() && !source.is_stale && source.worn < 2;
         if serves && source.is_held_like(&springs) {
@@ -228,14 +279,15 @@ impl Fleet {
         source.springs = springs;
         source.is_stale = false;
         let mut matrix = self.fine.matrix(kept, values);
-        hold(&mut matrix, &supports(&self.fine, kept, values));
+        hold(&mut matrix, supports);
         alone::add(kept, values, &self.fine, &mut matrix);
         if let Some(rows) = rows {
             matrix = matrix.plus(&springs::stiffness(&rows));
         }
         let fingerprint = fingerprint(matrix.value.as_flattened().as_flattened());
         (source.base, source.worn) = (None, 0);
-        if source.fingerprint.replace(fingerprint) == Some(fingerprint) {
+        let is_same = source.fingerprint.replace(fingerprint) == Some(fingerprint);
+        if self.partition.is_on_all(is_same)? {
             return Ok(None);
         }
         self.set_bodies(&matrix)?;
@@ -325,8 +377,9 @@ impl Fleet {
                 Wanted::Residual(_) if report.residual <= part => true,
                 Wanted::Residual(_) => {
                     at.gather(&own, x)?;
-                    let mut whole = Residual::new(kept.equation.len(), x.len());
-                    left <= whole.round_off(kept, values, x)
+                    let mut own = Residual::new(kept.equation.len(), x.len());
+                    let of_rows = own.round_off(kept, values, x);
+                    left <= at.of_ranks(of_rows, krylov::larger)
                 }
                 Wanted::Part { .. } if symmetric || count == 0 => true,
                 Wanted::Part { part, .. } => {
@@ -391,7 +444,7 @@ impl AtRanks<'_> {
         match ranks.all_gather(&[own], &self.counts, &mut self.numbers) {
             Ok(()) => self.numbers.iter().copied().reduce(combine).unwrap_or(own),
             Err(error) => {
-                self.fault.get_or_insert(library(&error));
+                self.fault.get_or_insert(failed(&error));
                 f64::NAN
             }
         }
@@ -402,24 +455,11 @@ impl AtRanks<'_> {
         let Layout { counts, number, .. } = &self.fleet.layout;
         let mut all = vec![0.0; self.fleet.layout.total()];
         let gathered = self.fleet.ranks.all_gather(own, counts, &mut all);
-        gathered.map_err(|error| library(&error))?;
+        gathered.map_err(|error| failed(&error))?;
         for (x, &n) in x.iter_mut().zip(number) {
             *x = all.get(n as usize).copied().unwrap_or(0.0);
         }
         Ok(())
-    }
-}
-
-/// An error between ranks as one of a library.
-const fn library(error: &RanksError) -> LinearError {
-    let code = match error {
-        RanksError::Library { code, .. } => *code,
-        RanksError::Shape { .. } => -1,
-    };
-    LinearError::Library {
-        name: "MPI",
-        code,
-        detail: 0,
     }
 }
 

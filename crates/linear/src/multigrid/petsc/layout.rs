@@ -5,12 +5,12 @@
 //!   u of its nodes, three each │ others │ u of its nodes │ others │ …      others: multipliers, motions of rigid bodies, …
 //! ```
 //!
-//! Nodes are shared out by METIS, the same on every rank. A prescribed component keeps its place, with a row of its own, so
+//! Nodes are those of the [`Partition`] of the bulk. A prescribed component keeps its place, with a row of its own, so
 //! that blocks stay blocks. What is no component of a deformable node goes to the rank of a node that it acts on.
 
 use super::super::fine::Fine;
 use super::super::grid::Numbers;
-use crate::ordering;
+use crate::partition::Partition;
 use crate::problem::Kept;
 use crate::sparsity::NONE;
 
@@ -31,9 +31,12 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Shares out the equations of a problem among so many ranks.
-    pub fn new(kept: &Kept, fine: &Fine, numbers: &Numbers, rank: usize, size: usize) -> Self {
-        let owner = share_out(kept, fine, size);
+    /// Shares out the equations of a problem whose rows are divided like this.
+    pub fn new(kept: &Kept, fine: &Fine, numbers: &Numbers, partition: &Partition) -> Self {
+        let ranks = partition.ranks();
+        let (rank, size) = (ranks.rank(), ranks.size());
+        let of_node = |&node: &u32| partition.owner(node).unwrap_or_default() as u32;
+        let owner: Vec<u32> = fine.node.iter().map(of_node).collect();
         let others = others(kept, fine, numbers, &owner);
         let mut counts = vec![0; size];
         let mut nbody = vec![0; size];
@@ -106,23 +109,6 @@ impl Layout {
             *own = whole.get(e as usize).copied().unwrap_or(0.0);
         }
     }
-}
-
-/// The rank of each row of the finest level.
-fn share_out(kept: &Kept, fine: &Fine, size: usize) -> Vec<u32> {
-    let nrow = fine.node.len();
-    if size < 2 {
-        return vec![0; nrow];
-    }
-    let near = |row: u32| {
-        let node = fine.node[row as usize] as usize;
-        let range = kept.bulk.row_start[node]..kept.bulk.row_start[node + 1];
-        let rows = kept.bulk.column[range]
-            .iter()
-            .map(|&c| fine.row(c as usize));
-        rows.filter(move |&other| other != NONE && other != row)
-    };
-    ordering::share_out(nrow, near, size)
 }
 
 /// The equations that are no component of a row of the finest level, with their rank: that of the first row that each acts

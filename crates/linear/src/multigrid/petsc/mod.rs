@@ -19,6 +19,7 @@
 //! Sources: S. Balay and others, PETSc/TAO Users Manual, ANL-21/39; M. Adams, M. Brezina, J. Hu, R. Tuminaro, Parallel
 //! multigrid smoothing: polynomial versus Gauss–Seidel, J. Comput. Phys. 188 (2003) 593–610.
 
+mod fetched;
 mod fleet;
 mod layout;
 mod library;
@@ -29,7 +30,10 @@ use super::{MULTIGRID_FROM, Multigrid, all_finite, suits};
 use crate::error::LinearError;
 use crate::problem::{Kept, Problem, Values};
 use crate::solver::{Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
+use crate::sparsity::BlockPattern;
+use fetched::Fetched;
 use fleet::Fleet;
+use signorini_ranks::{Ranks, world};
 use std::any::Any;
 
 /// Increments in which iterations fail before they are tried no more.
@@ -41,8 +45,10 @@ pub struct Petsc {
     fleet: Option<Fleet>,
     /// Increments in which iterations have failed, as far as they count.
     failures: u8,
-    /// What stands in for it, on every rank.
+    /// What stands in for it, on every rank, with all rows.
     alone: Multigrid,
+    /// Those of other ranks, once they were needed.
+    rows: Option<Fetched>,
     /// What has the present values.
     way: Option<Way>,
     notes: Vec<Note>,
@@ -70,6 +76,7 @@ impl Petsc {
             fleet: None,
             failures: 0,
             alone: Multigrid::from_sizes(MULTIGRID_FROM),
+            rows: None,
             way: None,
             notes: Vec::new(),
         }
@@ -79,8 +86,31 @@ impl Petsc {
         let kept = self.kept.as_ref();
         let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
         self.way = None;
-        self.alone.analyze(&kept.problem())?;
-        self.alone.factorize(values)?;
+        self.rows = match &kept.bulk.partition {
+            Some(partition) if partition.ranks().size() > 1 => {
+                let rows = match self.rows.take() {
+                    Some(rows) => Ok(rows),
+                    None => {
+                        let all: Vec<u32> = (0..kept.bulk.nrow() as u32).collect();
+                        Fetched::new(&kept.bulk, partition, &all)
+                    }
+                };
+                let mut rows = rows?;
+                rows.update(partition, values.bulk)?;
+                Some(rows)
+            }
+            _ => None,
+        };
+        let here = BlockPattern {
+            partition: None,
+            ..kept.bulk.clone()
+        };
+        let bulk = self.rows.as_ref().map_or(&here, |rows| &rows.pattern);
+        self.alone.analyze(&Problem {
+            bulk,
+            ..kept.problem()
+        })?;
+        self.alone.factorize(&whole(self.rows.as_ref(), values))?;
         self.way = Some(Way::Alone);
         Ok(())
     }
@@ -117,28 +147,45 @@ impl Petsc {
         if way == Way::Fleet {
             self.go_alone(values)?;
         }
-        let report = self.alone.solve_by(values, rhs, x, wanted)?;
+        let values = whole(self.rows.as_ref(), values);
+        let report = self.alone.solve_by(&values, rhs, x, wanted)?;
         Ok(report.after(lost))
+    }
+}
+
+/// The values of all rows, where those of other ranks were fetched.
+fn whole<'a>(rows: Option<&'a Fetched>, values: &Values<'a>) -> Values<'a> {
+    Values {
+        bulk: rows.map_or(values.bulk, |rows| &rows.values),
+        interface: values.interface,
     }
 }
 
 impl LinearSolver for Petsc {
     fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError> {
-        if self.kept.as_ref().is_some_and(|kept| kept.is(problem)) {
+        let on_all = |is: bool| match &problem.bulk.partition {
+            Some(partition) => partition.is_on_all(is),
+            None => Ok(is),
+        };
+        let is_kept = self.kept.as_ref().is_some_and(|kept| kept.is(problem));
+        if on_all(is_kept)? {
             return Ok(());
         }
-        (self.way, self.kept) = (None, None);
+        (self.way, self.kept, self.rows) = (None, None, None);
         problem.check()?;
         let kept = Kept::new(problem);
         let suits = problem.fields.is_empty() && suits(problem, [0; 2]);
+        let partition = kept.bulk.partition.as_ref().filter(|_| suits);
         let fleet = self.fleet.take().filter(|_| suits);
-        self.fleet = match fleet {
-            Some(mut fleet) if fleet.is_of(&kept) => {
+        let is_of = on_all(fleet.as_ref().is_some_and(|fleet| fleet.is_of(&kept)))?;
+        let fleet = fleet.filter(|_| is_of);
+        self.fleet = match (fleet, partition) {
+            (Some(mut fleet), _) => {
                 fleet.follow(&kept);
                 Some(fleet)
             }
-            _ if suits => Some(Fleet::new(&kept)?).filter(Fleet::has_rows),
-            _ => None,
+            (None, Some(partition)) => Some(Fleet::new(&kept, partition)?).filter(Fleet::has_rows),
+            (None, None) => None,
         };
         self.kept = Some(kept);
         Ok(())
@@ -149,7 +196,9 @@ impl LinearSolver for Petsc {
         let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
         self.way = None;
         kept.check(values)?;
-        if !all_finite(values) {
+        let partition = kept.bulk.partition.as_ref();
+        let is_finite = all_finite(values);
+        if !partition.map_or(Ok(is_finite), |of| of.is_on_all(is_finite))? {
             return Err(LinearError::NotFinite);
         }
         let is_tried = self.failures < FAILURES;
@@ -209,6 +258,10 @@ impl Iterative for Petsc {
         enough: f64,
     ) -> Result<SolveReport, LinearError> {
         self.solve_by(values, rhs, x, Wanted::Part { part, enough })
+    }
+
+    fn ranks(&self) -> Option<&'static dyn Ranks> {
+        Some(world())
     }
 
     fn wants_start(&self, _: u64) -> bool {

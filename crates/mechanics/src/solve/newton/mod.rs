@@ -116,7 +116,18 @@ pub(super) struct Newton {
 
 impl Newton {
     pub fn new(settings: NewtonSettings, system: &System, equations: Equations) -> Self {
-        let assembler = Assembler::new(&system.layout, &system.elimination, &system.terms);
+        let System {
+            layout,
+            elimination,
+            terms,
+            ..
+        } = system;
+        // rows of bodies in space are divided where the solver takes them so
+        let is_plain = layout.ndim() == 3 && layout.other_nodal().next().is_none();
+        let assembler = match equations.ranks().filter(|_| is_plain) {
+            Some(ranks) => Assembler::divided(layout, elimination, terms, ranks),
+            None => Assembler::new(layout, elimination, terms),
+        };
         Self::with(settings, system, equations, assembler)
     }
 

@@ -8,6 +8,7 @@ use signorini_linear::{
     EXACT, Iterative, LinearError, LinearKind, LinearSolver, Note, Problem, SolveReport,
     StartStiffness, Values, choose,
 };
+use signorini_ranks::Ranks;
 use std::any::Any;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -691,6 +692,10 @@ impl Iterative for Counting {
         _enough: f64,
     ) -> Result<SolveReport, LinearError> {
         self.solve(values, rhs, x, EXACT)
+    }
+
+    fn ranks(&self) -> Option<&'static dyn Ranks> {
+        None
     }
 
     fn wants_start(&self, _id: u64) -> bool {
