@@ -36,6 +36,16 @@ pub enum Path {
         /// The factor of the equations at which the interface has a place.
         block: Factor,
     },
+    /// By PETSc's multigrid over ranks that divide so many numbers of the stiffness of the bodies; each has the factor around
+    /// the interface.
+    Ranks {
+        /// How many ranks.
+        nrank: usize,
+        /// Numbers.
+        nbulk: usize,
+        /// The factor of the equations at which the interface has a place.
+        block: Factor,
+    },
 }
 
 /// Equations from which on a fallback is not foreseen: its order would take longer than a check may.
@@ -60,6 +70,20 @@ impl Forecast {
         let kept = Kept::new(problem);
         let mut noperator = problem.bulk.nvalue() + problem.interface.nentry();
         let nequation = problem.nequation;
+        let divides = problem.fields.is_empty() && multigrid::suits(problem, [0; 2]);
+        if let Some(nrank) = ranks(kind).filter(|_| divides) {
+            let path = Path::Ranks {
+                nrank,
+                nbulk: problem.bulk.nvalue(),
+                block: multigrid::size_of_block(&kept)?,
+            };
+            return Ok(Self {
+                nequation,
+                noperator,
+                path,
+                fallback: None,
+            });
+        }
         if least.is_some_and(|least| multigrid::suits(problem, least)) {
             let path = Path::Multigrid {
                 nbulk: problem.bulk.nvalue(),
@@ -90,13 +114,21 @@ impl Forecast {
     }
 
     /// Seconds of a factorization on this machine, measured on a small dense product; with multigrid, of its cycles in an
-    /// iteration of Newton's method, about.
+    /// iteration of Newton's method, about, where each rank has a core.
     #[must_use]
     pub fn seconds(&self) -> f64 {
         match self.path {
             Path::Direct(factor) => factor.work / (rate() * EFFICIENCY),
             Path::Multigrid { nbulk, block } => {
                 SECONDS_PER_NUMBER * nbulk as f64 + block.work / (rate() * EFFICIENCY)
+            }
+            Path::Ranks {
+                nrank,
+                nbulk,
+                block,
+            } => {
+                let own = nbulk as f64 / nrank.max(1) as f64;
+                SECONDS_OF_PETSC * own + block.work / (rate() * EFFICIENCY)
             }
         }
     }
@@ -111,6 +143,15 @@ impl Forecast {
         self.fallback.map(|f| work(f) / (rate() * EFFICIENCY))
     }
 
+    /// The ranks that each have their part of the work and of the memory; 1 where each has all.
+    #[must_use]
+    pub const fn nrank(&self) -> usize {
+        match self.path {
+            Path::Ranks { nrank, .. } => nrank,
+            _ => 1,
+        }
+    }
+
     /// Bytes of the operator, its patterns, the matrices and the factors at the time when all of them are there.
     #[must_use]
     pub fn bytes(&self) -> f64 {
@@ -119,6 +160,11 @@ impl Forecast {
             Path::Multigrid { nbulk, block } => {
                 BYTES_PER_NUMBER * nbulk as f64 + bytes_of_block(block)
             }
+            Path::Ranks {
+                nrank,
+                nbulk,
+                block,
+            } => BYTES_OF_PETSC * nbulk as f64 / nrank.max(1) as f64 + bytes_of_block(block),
         }
     }
 
@@ -140,6 +186,17 @@ impl Forecast {
     }
 }
 
+/// The ranks among which a solver of this kind divides the bodies; none where it does not.
+fn ranks(kind: LinearKind) -> Option<usize> {
+    let size = signorini_ranks::together().size();
+    match kind {
+        #[cfg(feature = "mpi")]
+        LinearKind::Petsc => Some(size),
+        LinearKind::Auto => Some(size).filter(|&size| size > 1),
+        _ => None,
+    }
+}
+
 /// Bytes of the block at the interface: its matrix with everything that is made of it, and its factor in single precision.
 fn bytes_of_block(block: Factor) -> f64 {
     BYTES_PER_ENTRY * block.nmatrix as f64 + 0.5 * NUMBER * block.nfactor as f64
@@ -149,6 +206,10 @@ fn bytes_of_block(block: Factor) -> f64 {
 /// 40,000 to 300,000 unknowns, `docs/speed.md`.
 const BYTES_PER_NUMBER: f64 = 40.0;
 const SECONDS_PER_NUMBER: f64 = 2e-8;
+/// What it costs PETSc, hierarchies and factors included, and the seconds of a solution: measured on hex8 with 17,000 to
+/// 140,000 unknowns.
+const BYTES_OF_PETSC: f64 = 200.0;
+const SECONDS_OF_PETSC: f64 = 6e-7;
 /// What a number of one triangle of the matrix of a factor of the bodies costs: blocks, the pattern of both triangles, twice, and
 /// the equilibrated matrix.
 const BYTES_PER_COEFFICIENT: f64 = 64.0;

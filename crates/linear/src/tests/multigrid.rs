@@ -386,6 +386,32 @@ fn thin_plates_are_solved_by_a_factor_of_the_bodies_for_good() {
 }
 
 #[test]
+#[cfg(feature = "mpi")]
+fn a_forecast_for_ranks_counts_the_part_of_each() {
+    let placed = plates([36, 24, 2], 1);
+    let assembled = placed.system.assemble();
+    let problem = placed.problem(&assembled);
+    let forecast = Forecast::new(&problem, LinearKind::Petsc).unwrap();
+    let alone = Forecast::new(&problem, LinearKind::Multigrid).unwrap();
+    let (Path::Ranks { nrank, block, .. }, Path::Multigrid { block: same, .. }) =
+        (forecast.path, alone.path)
+    else {
+        panic!("{forecast:?}");
+    };
+    assert!(nrank == 1 && forecast.nrank() == 1 && block == same);
+    assert!(forecast.bytes() > alone.bytes() && forecast.seconds() > alone.seconds());
+    let part = |nrank| {
+        let path = Path::Ranks {
+            nrank,
+            nbulk: problem.bulk.nvalue(),
+            block: Factor::default(),
+        };
+        Forecast { path, ..forecast }
+    };
+    assert_eq!(part(1).bytes(), 4.0 * part(4).bytes());
+}
+
+#[test]
 fn a_forecast_counts_the_interface_and_what_takes_over() {
     let placed = plates([36, 24, 2], 1);
     let assembled = placed.system.assemble();

@@ -38,6 +38,7 @@ pub(super) struct System {
     pub(super) multiplier_from: usize,
 }
 
+#[derive(Clone)]
 pub(super) struct Assembled {
     pub(super) bulk: BlockPattern,
     pub(super) interface: Pattern,

@@ -1,7 +1,7 @@
 //! Memory and time that a solution takes.
 
 use crate::setup::Model;
-use crate::text::{count, short};
+use crate::text::{count, plural, short};
 use signorini_linear::Path;
 use signorini_mechanics::solve::{Cost, forecast};
 
@@ -37,9 +37,19 @@ pub fn estimate(model: &Model) -> Option<Estimate> {
             "multigrid, and a direct solution of {} equations around the interface",
             count(block.nequation)
         ),
+        Path::Ranks { nrank, block, .. } => format!(
+            "PETSc on {}, and a direct solution of {} equations around the interface",
+            plural(nrank, "rank"),
+            count(block.nequation)
+        ),
     };
+    let each = match linear.path {
+        Path::Ranks { .. } => " on each rank",
+        _ => "",
+    };
+    let assembly = assembly / linear.nrank() as f64;
     let mut lines = vec![format!(
-        "cost: about {} of memory, {} for each iteration on this machine, by {path}",
+        "cost: about {} of memory{each}, {} for each iteration on this machine, by {path}",
         bytes(other + linear.bytes()),
         duration(linear.seconds() + assembly)
     )];

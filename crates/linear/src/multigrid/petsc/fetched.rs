@@ -147,3 +147,86 @@ impl Neighbourhood {
         Ok(&mut self.last[at])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_ranks::on_threads;
+
+    /// A grid of squares, with a number for each entry of each block that says where it belongs.
+    fn grid(n: u32) -> BlockPattern {
+        let node = |x: u32, y: u32| y * (n + 1) + x;
+        let squares = (0..n).flat_map(|y| (0..n).map(move |x| (x, y)));
+        let nodes: Vec<u32> = squares
+            .flat_map(|(x, y)| [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)])
+            .map(|(x, y)| node(x, y))
+            .collect();
+        let offsets: Vec<usize> = (0..=nodes.len() / 4).map(|square| 4 * square).collect();
+        BlockPattern::from_cliques(((n + 1) * (n + 1)) as usize, 3, &nodes, &offsets)
+    }
+
+    fn values(pattern: &BlockPattern) -> Vec<f64> {
+        let rows = (0..pattern.nrow() as u32)
+            .flat_map(|row| pattern.columns(row).iter().map(move |&c| (row, c)));
+        rows.flat_map(|(row, c)| {
+            (0..9).map(move |k| f64::from(row * 1000 + c) + f64::from(k) / 16.0)
+        })
+        .collect()
+    }
+
+    #[test]
+    fn rows_that_were_fetched_are_those_of_the_whole() {
+        let whole = grid(9);
+        let lists = [vec![0, 17, 44, 45, 99], (0..100).collect(), Vec::new()];
+        for (size, nodes) in (1..=3).flat_map(|size| lists.iter().map(move |list| (size, list))) {
+            let (all, _) = on_threads(size, |ranks| {
+                let own = whole.divided(ranks);
+                let partition = own.partition.clone().unwrap();
+                let mut rows = Fetched::new(&own, &partition, nodes)?;
+                assert!(rows.is_of(nodes) && rows.values.is_empty());
+                rows.update(&partition, &values(&own))?;
+                Ok::<_, LinearError>(rows)
+            });
+            for rows in all {
+                let rows = rows.unwrap();
+                for node in 0..100 {
+                    let wanted = match nodes.contains(&node) {
+                        true => whole.columns(node),
+                        false => &[],
+                    };
+                    assert_eq!(rows.pattern.columns(node), wanted);
+                }
+                assert_eq!(rows.values, values(&rows.pattern));
+            }
+        }
+    }
+
+    #[test]
+    fn a_neighbourhood_keeps_patterns_that_are_asked_for_again() {
+        let (counts, _) = on_threads(2, |ranks| {
+            let own = grid(3).divided(ranks);
+            let partition = own.partition.clone().unwrap();
+            let mut near = Neighbourhood::default();
+            let mut fetched = Vec::new();
+            for lists in [
+                [vec![1], vec![2, 3]],
+                [vec![1], vec![2, 3]],
+                [vec![4], vec![2, 3]],
+            ] {
+                near.restart();
+                for nodes in &lists {
+                    let rows = near.rows(&own, &partition, nodes).unwrap();
+                    fetched.push(rows.values.is_empty());
+                    rows.update(&partition, &values(&own)).unwrap();
+                }
+            }
+            fetched
+        });
+        // what follows a list that has changed is fetched, too
+        assert!(
+            counts
+                .iter()
+                .all(|new| *new == [true, true, false, false, true, true])
+        );
+    }
+}
