@@ -12,6 +12,7 @@ use super::{
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
+use signorini_linear::Partition;
 use signorini_linear::sparsity::{BlockPattern, Pattern};
 use signorini_ranks::Ranks;
 
@@ -254,7 +255,6 @@ impl Assembler {
                 part,
                 is_known: false,
                 first_rank: 0,
-                is_here: true,
                 positions: Vec::new(),
             }));
             if part == Part::Bulk {
@@ -312,7 +312,7 @@ impl Assembler {
             if !task.is_known {
                 return;
             }
-            (task.is_here, task.first_rank) = (is_here, first_rank);
+            task.first_rank = first_rank;
             if is_here {
                 elementwise.elements(task.chunk, &mut |nodes| {
                     find_blocks(bulk, nodes, &mut task.positions);
@@ -330,7 +330,8 @@ impl Assembler {
                 term.elements(tasks[at].chunk, take);
             }
         };
-        let here: Vec<usize> = (0..ntask).filter(|&at| tasks[at].is_here).collect();
+        let is_here = |&at: &usize| !tasks[at].positions.is_empty();
+        let here: Vec<usize> = (0..ntask).filter(is_here).collect();
         let mut shares = share_out(nthread, layout.nnode(), &here, elements);
         if shares.is_empty() && self.bulk.partition.is_some() {
             shares.push(Share {
@@ -617,17 +618,47 @@ impl Assembler {
         terms: &[Box<dyn Term>],
         trial: &State,
     ) -> Result<Option<f64>, TermError> {
-        let rank = self.ranks.map_or(0, |ranks| ranks.rank());
-        let is_divided = self.bulk.partition.is_some();
+        let (mut energies, end) = self.energies_here(terms, trial);
+        if let Some(partition) = self.bulk.partition.clone() {
+            let own = end.as_ref().map_or(u64::MAX, |_| energies.len() as u64);
+            let first = partition.least(own).map_err(TermError::Ranks)?;
+            match self.tasks.get(first as usize) {
+                Some(task) if own != first => {
+                    // on another rank: why, each finds for itself
+                    terms[task.term].energy(task.chunk, trial, &mut Work::default())?;
+                    return Ok(None);
+                }
+                Some(_) => {}
+                None => self.fetch_energies(&partition, &mut energies)?,
+            }
+        }
+        match end {
+            Some(failure) => failure.map_or(Ok(None), Err),
+            None => Ok(Some(
+                energies.into_iter().fold(0.0, |sum, energy| sum + energy),
+            )),
+        }
+    }
+
+    /// The energies of tasks in their order, 0 where another rank evaluates one, up to the first that has none or fails; and
+    /// why there are no more.
+    fn energies_here(
+        &mut self,
+        terms: &[Box<dyn Term>],
+        trial: &State,
+    ) -> (Vec<f64>, Option<Option<TermError>>) {
+        let partition = self.bulk.partition.as_deref();
+        let is_elsewhere = |task: &Task| {
+            let rank = partition.map(|of| of.ranks().rank());
+            task.is_known && rank.is_some_and(|rank| rank != task.first_rank)
+        };
         let size = wave(Order::Residual).min(self.slots.len()).max(1);
         let mut energies = Vec::with_capacity(self.tasks.len());
-        let mut end = None;
         for wave in self.tasks.chunks(size) {
             let evaluate = |(slot, task): (&mut Slot, &Task)| {
                 // nothing stays of a wave before it
-                slot.failure = None;
-                slot.energy = Some(0.0);
-                if is_divided && task.is_known && task.first_rank != rank {
+                (slot.energy, slot.failure) = (Some(0.0), None);
+                if is_elsewhere(task) {
                     return;
                 }
                 match terms[task.term].energy(task.chunk, trial, &mut slot.work) {
@@ -643,44 +674,15 @@ impl Assembler {
             for (slot, _) in self.slots.iter_mut().zip(wave) {
                 match (slot.failure.take(), slot.energy) {
                     (None, Some(energy)) => energies.push(energy),
-                    (failure, _) => end = end.or(Some(failure)),
-                }
-                if end.is_some() {
-                    break;
+                    (failure, _) => return (energies, Some(failure)),
                 }
             }
-            if end.is_some() {
-                break;
-            }
         }
-        let first = match &self.bulk.partition {
-            Some(partition) => {
-                let own = end.as_ref().map_or(usize::MAX, |_| energies.len());
-                partition.least(own as u64).map_err(TermError::Ranks)? as usize
-            }
-            None => energies.len(),
-        };
-        match end {
-            Some(failure) if first == energies.len() => return failure.map_or(Ok(None), Err),
-            _ => {}
-        }
-        if let (Some(task), true) = (self.tasks.get(first), is_divided) {
-            // on another rank: what it is, each finds for itself
-            let mut work = Work::default();
-            terms[task.term].energy(task.chunk, trial, &mut work)?;
-            return Ok(None);
-        }
-        self.fetch_energies(&mut energies)?;
-        Ok(Some(
-            energies.into_iter().fold(0.0, |sum, energy| sum + energy),
-        ))
+        (energies, None)
     }
 
     /// Fetches the energies of the tasks that other ranks evaluate.
-    fn fetch_energies(&self, energies: &mut [f64]) -> Result<(), TermError> {
-        let Some(partition) = &self.bulk.partition else {
-            return Ok(());
-        };
+    fn fetch_energies(&self, partition: &Partition, energies: &mut [f64]) -> Result<(), TermError> {
         let (rank, size) = (partition.ranks().rank(), partition.ranks().size());
         let known = self.tasks.iter().enumerate().filter(|(_, t)| t.is_known);
         let mut of_ranks: Vec<Vec<usize>> = vec![Vec::new(); size];

@@ -115,11 +115,10 @@ pub(super) struct Task {
     pub part: Part,
     /// Whether its elements are known, and none has unknowns that follow others.
     pub is_known: bool,
-    /// Where rows are divided among ranks: the first rank whose rows a known one touches, and whether this one's are among
-    /// them.
+    /// Where rows are divided among ranks: the first rank whose rows a known one touches.
     pub first_rank: usize,
-    pub is_here: bool,
-    // where the blocks of each element of the chunk go, in order; found once
+    // where the blocks of each element of the chunk go, in order; found once; of a known one none where it touches no row
+    // of this rank
     pub positions: Vec<u32>,
 }
 

@@ -43,6 +43,14 @@ impl Springs {
         }
     }
 
+    fn can_evaluate(&self, chunk: usize) -> Result<(), TermError> {
+        let what = format!("chunk {chunk}");
+        match self.broken.contains(&chunk) {
+            true => Err(TermError::NotFinite { what }),
+            false => Ok(()),
+        }
+    }
+
     fn of(&self, chunk: usize) -> impl Iterator<Item = (&[NodeId; 2], f64)> {
         let springs = self.ends.iter().zip(self.rest.iter().copied());
         springs.skip(chunk * CHUNK).take(CHUNK)
@@ -90,10 +98,7 @@ impl Term for Springs {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let n = self.layout.ndim();
-        if self.broken.contains(&chunk) {
-            let what = format!("chunk {chunk}");
-            return Err(TermError::NotFinite { what });
-        }
+        self.can_evaluate(chunk)?;
         for (ends, rest) in self.of(chunk) {
             let d = trial.x[ends[1] as usize] - trial.x[ends[0] as usize];
             let stretch = d.norm_squared() - rest * rest;
@@ -114,6 +119,7 @@ impl Term for Springs {
     }
 
     fn energy(&self, chunk: usize, trial: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
+        self.can_evaluate(chunk)?;
         let of = |(ends, rest): (&[NodeId; 2], f64)| {
             let d = trial.x[ends[1] as usize] - trial.x[ends[0] as usize];
             let stretch = d.norm_squared() - rest * rest;
@@ -612,6 +618,7 @@ fn what_one_rank_cannot_evaluate_fails_on_all() {
         });
         for rank in all {
             assert!(rank.done.unwrap_err().contains("chunk 17"), "{size}");
+            assert!(rank.energy.unwrap_err().contains("chunk 17"), "{size}");
         }
     }
 }
