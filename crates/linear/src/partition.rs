@@ -45,7 +45,7 @@ impl Partition {
         columns: impl Fn(u32) -> &'a [u32],
         ranks: &'static dyn Ranks,
     ) -> Self {
-        let body = bodies(nrow, &columns);
+        let body = body_of_each(nrow, &columns);
         let used: Vec<u32> = (0..nrow as u32)
             .filter(|&node| body[node as usize] != NONE)
             .collect();
@@ -106,14 +106,7 @@ impl Partition {
 
     /// The nodes of each connected body, in their order.
     pub(crate) fn bodies(&self) -> Vec<Vec<u32>> {
-        let count = self.body.iter().filter(|&&body| body != NONE).max();
-        let mut bodies = vec![Vec::new(); count.map_or(0, |&last| last as usize + 1)];
-        for (node, &body) in (0..).zip(&self.body) {
-            if let Some(of_body) = bodies.get_mut(body as usize) {
-                of_body.push(node);
-            }
-        }
-        bodies
+        grouped(&self.body)
     }
 
     /// Fetches the entries at nodes of other ranks.
@@ -236,8 +229,25 @@ pub(crate) const fn failed(error: &RanksError) -> LinearError {
     }
 }
 
+/// The nodes of each connected body, in their order, from the columns of so many rows.
+pub(crate) fn bodies<'a>(nrow: usize, columns: impl Fn(u32) -> &'a [u32]) -> Vec<Vec<u32>> {
+    grouped(&body_of_each(nrow, columns))
+}
+
+/// The nodes of each body, in their order.
+fn grouped(body: &[u32]) -> Vec<Vec<u32>> {
+    let last = body.iter().filter(|&&body| body != NONE).max();
+    let mut bodies = vec![Vec::new(); last.map_or(0, |&last| last as usize + 1)];
+    for (node, &body) in (0..).zip(body) {
+        if let Some(of_body) = bodies.get_mut(body as usize) {
+            of_body.push(node);
+        }
+    }
+    bodies
+}
+
 /// The connected body of each node, numbered by their first nodes, or `NONE`.
-fn bodies<'a>(nrow: usize, columns: impl Fn(u32) -> &'a [u32]) -> Vec<u32> {
+fn body_of_each<'a>(nrow: usize, columns: impl Fn(u32) -> &'a [u32]) -> Vec<u32> {
     let mut body = vec![NONE; nrow];
     let mut nodes = Vec::new();
     let mut count = 0;

@@ -2,6 +2,7 @@
 
 use super::aggregation::MODES;
 use super::blocks::Blocks;
+use crate::partition::bodies;
 use crate::problem::{Kept, Values};
 use crate::sparsity::{BlockPattern, NONE};
 use rayon::prelude::*;
@@ -62,7 +63,7 @@ impl Fine {
             // what couples is not known of rows of other ranks, and parts are for threads
             Some(partition) => (partition.bodies(), (free, Vec::new())),
             None => {
-                let bodies = bodies(kept, nnode);
+                let bodies = bodies(nnode, |node| kept.bulk.columns(node));
                 let parts = in_parts(kept, &bodies, &free, moves);
                 (bodies, parts)
             }
@@ -274,32 +275,6 @@ pub(super) fn stiffen(matrix: &mut Blocks<3, 3>, rows: &[u32], part: f64) {
         let mean = (0..3).map(|i| block[i][i]).sum::<f64>() / 3.0;
         (0..3).for_each(|i| block[i][i] += part * mean);
     }
-}
-
-/// The nodes of each connected body, in their order.
-fn bodies(kept: &Kept, nnode: usize) -> Vec<Vec<u32>> {
-    let near = |node: u32| kept.bulk.columns(node);
-    let mut seen = vec![false; nnode];
-    let mut bodies = Vec::new();
-    for first in 0..nnode as u32 {
-        if std::mem::replace(&mut seen[first as usize], true) || near(first).is_empty() {
-            continue;
-        }
-        let mut body = vec![first];
-        let mut at = 0;
-        while let Some(&node) = body.get(at) {
-            at += 1;
-            for &other in near(node) {
-                if seen.get(other as usize) == Some(&false) {
-                    seen[other as usize] = true;
-                    body.push(other);
-                }
-            }
-        }
-        body.sort_unstable();
-        bodies.push(body);
-    }
-    bodies
 }
 
 /// The rows of bodies that may move as a whole.

@@ -377,9 +377,9 @@ impl Fleet {
                 Wanted::Residual(_) if report.residual <= part => true,
                 Wanted::Residual(_) => {
                     at.gather(&own, x)?;
-                    let mut own = Residual::new(kept.equation.len(), x.len());
-                    let of_rows = own.round_off(kept, values, x);
-                    left <= at.of_ranks(of_rows, krylov::larger)
+                    let mut of_rows = Residual::new(kept.equation.len(), x.len());
+                    let round_off = of_rows.round_off(kept, values, x);
+                    left <= at.of_ranks(round_off, krylov::larger)
                 }
                 Wanted::Part { .. } if symmetric || count == 0 => true,
                 Wanted::Part { part, .. } => {

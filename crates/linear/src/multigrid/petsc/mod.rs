@@ -88,14 +88,11 @@ impl Petsc {
         self.way = None;
         self.rows = match &kept.bulk.partition {
             Some(partition) if partition.ranks().size() > 1 => {
-                let rows = match self.rows.take() {
-                    Some(rows) => Ok(rows),
-                    None => {
-                        let all: Vec<u32> = (0..kept.bulk.nrow() as u32).collect();
-                        Fetched::new(&kept.bulk, partition, &all)
-                    }
+                let all = || (0..kept.bulk.nrow() as u32).collect::<Vec<u32>>();
+                let mut rows = match self.rows.take() {
+                    Some(rows) => rows,
+                    None => Fetched::new(&kept.bulk, partition, &all())?,
                 };
-                let mut rows = rows?;
                 rows.update(partition, values.bulk)?;
                 Some(rows)
             }
