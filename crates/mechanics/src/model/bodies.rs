@@ -4,7 +4,7 @@ use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
 use crate::solve::Step;
-use crate::system::{Course, Dof, Idealisation, NO_DOF, NodalField, Term};
+use crate::system::{Course, Directors, Dof, Idealisation, NO_DOF, NodalField, Term};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::collections::{BTreeSet, HashMap};
@@ -38,11 +38,14 @@ pub(super) fn owners(
 }
 
 /// The body of each node; `u32::MAX` where there is none.
-pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<u32> {
+pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart], directors: &Directors) -> Vec<u32> {
     let mut of = vec![u32::MAX; mesh.nnode()];
     for (number, body) in bodies.iter().enumerate() {
         for &cell in &body.cells {
             for &node in mesh.cell(cell) {
+                of[node as usize] = number as u32;
+            }
+            for node in directors.behind(mesh.cell(cell)) {
                 of[node as usize] = number as u32;
             }
         }
@@ -257,6 +260,7 @@ impl Context<'_> {
                         at_nodes,
                         initial: &initial,
                         axes: axes.map(|axes| *axes),
+                        directors: self.directors,
                     })?;
                     solid.set_retardation(mass.retardation);
                     solid.set_activity(self.activity.clone());

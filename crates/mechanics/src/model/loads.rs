@@ -359,7 +359,9 @@ impl Context<'_> {
             let factor = density * body.section.unwrap_or(1.0);
             // by the rule of the element: reduced integration makes another mass of bent elements
             let rule = match body.integration {
-                Integration::Full | Integration::Raised => element.surface_rule(),
+                Integration::Full | Integration::Raised | Integration::Through(_) => {
+                    element.surface_rule()
+                }
                 Integration::Reduced => element.reduced_rule(),
             };
             let across = (body.space, body.profile.as_deref());

@@ -62,7 +62,7 @@ pub use summary::{
 use crate::contact::Interface;
 use crate::material::Material;
 use crate::solve::Step;
-use crate::system::{Layout, System, Term};
+use crate::system::{Directors, Layout, System, Term};
 use bodies::{between, nodes_by_body, owners};
 use constraints::Followers;
 use contact::{Sides, Source};
@@ -152,7 +152,8 @@ impl Model {
         let (bodies, contacts) = (&parts.bodies, &parts.contacts);
         let owner = owners(mesh, bodies)?;
         let activity = Arc::new(activity::activity(mesh, bodies, &owner, &parts.steps)?);
-        let body_of_node = nodes_by_body(mesh, bodies);
+        let directors = Directors::new(parts.directors.clone(), mesh.nnode());
+        let body_of_node = nodes_by_body(mesh, bodies, &directors);
         let between = between(mesh, bodies);
         let spaces = Spaces::new(space, &owner, &body_of_node, bodies);
         let followers = Followers {
@@ -192,6 +193,7 @@ impl Model {
         let temperature = heat::given(parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
+            directors: &directors,
             singles: &singles,
             reference: &reference,
             owner: &owner,
@@ -213,6 +215,7 @@ impl Model {
         let (mut steps, loads) = context.steps(parts.steps, contacts)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
+        elimination.follow_directors(&layout, &directors);
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
         let loads = loads::terms(&context, &steps, loads)?;
         let held_by_contact =

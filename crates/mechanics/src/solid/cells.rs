@@ -5,13 +5,14 @@ use super::choice::Situation;
 use super::damping::Since;
 use super::error::SolidError;
 use super::kernel::{
-    BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel, secant_kernel,
+    BatchKernel, Initial, Kernel, NMODE, Points, Remedy, batch_kernel, kernel, secant_kernel,
     viscous_kernel,
 };
 use super::plan::Part;
+use super::scratch::Scratch;
 use super::{AtNodes, Locking, report};
 use crate::material::{Kinematics, Material};
-use crate::system::Idealisation;
+use crate::system::{Idealisation, Sink};
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::collections::HashMap;
@@ -56,7 +57,10 @@ pub(super) struct Cells {
     pub finite: Treatment,
     pub ndilatation: usize,
     pub nnode: usize,
+    // that carry its unknowns
     pub nodes: Vec<NodeId>,
+    // those of its cells, where they are others
+    pub ends: Vec<NodeId>,
     pub labels: Vec<u64>,
     // where they are in the mesh
     pub ids: Vec<CellId>,
@@ -78,6 +82,8 @@ pub(super) struct Cells {
     pub frames: Frames,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
     pub rigidity: Vec<f64>,
+    // the same of a displacement of a middle, where `rigidity` is that of half a difference
+    pub of_middle: Vec<f64>,
     // of every unknown of every cell where the increment began, where velocities damp
     pub since: Vec<Since>,
 }
@@ -112,6 +118,7 @@ impl Cells {
         let rule = situation(Kinematics::Small).rule(projected.contains(&Ok(Remedy::Dilatation)));
         let modes = match small.locking {
             Ok(Locking::Incompatible) => element.dim() * element.dim(),
+            Ok(Locking::Shell) => NMODE,
             _ => 0,
         };
         Some(Self {
@@ -123,9 +130,11 @@ impl Cells {
             ndilatation: situation(Kinematics::Small).ndilatation(),
             nnode: element.nnode(),
             nodes: Vec::new(),
+            ends: Vec::new(),
             labels: Vec::new(),
             ids: Vec::new(),
             rigidity: Vec::new(),
+            of_middle: Vec::new(),
             since: Vec::new(),
             nhistory: rule.npoint() * nhistory + modes,
             undeformed: Vec::new(),
@@ -155,6 +164,22 @@ impl Cells {
 
     pub fn nodes_of(&self, cell: usize) -> &[NodeId] {
         &self.nodes[cell * self.nnode..(cell + 1) * self.nnode]
+    }
+
+    /// The nodes of a cell in the mesh: where it is, what temperatures it has, and what results are carried to.
+    pub fn ends_of(&self, cell: usize) -> &[NodeId] {
+        let of_cell = cell * self.nnode..(cell + 1) * self.nnode;
+        let ends = self.ends.get(of_cell);
+        ends.unwrap_or_else(|| self.nodes_of(cell))
+    }
+
+    /// The nodes of all cells in the mesh.
+    pub fn all_ends(&self) -> &[NodeId] {
+        if self.ends.is_empty() {
+            &self.nodes
+        } else {
+            &self.ends
+        }
     }
 
     /// Gives every cell the history of the undeformed material.
@@ -222,7 +247,7 @@ impl Cells {
                 let size = (high - low).norm();
                 let npoint = self.points.rule.npoint();
                 let mut all = Vec::with_capacity(npoint * self.labels.len());
-                for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
+                for (nodes, &label) in self.all_ends().chunks_exact(self.nnode).zip(&self.labels) {
                     for point in 0..npoint {
                         let mut place = Vec3::ZERO;
                         for (n, &node) in self.points.shape(point).iter().zip(nodes) {
@@ -254,12 +279,43 @@ impl Cells {
             x.extend(nodes.iter().map(at));
             modulus * self.points.stretch(&x, space)
         };
-        self.nodes.chunks_exact(self.nnode).map(of_cell).collect()
+        self.all_ends()
+            .chunks_exact(self.nnode)
+            .map(of_cell)
+            .collect()
+    }
+
+    /// `M ∫ max_k |N_k,X|² dV` of the middle of every cell whose nodes are ends of directors.
+    pub fn rigidities_of_middles(&self, reference: &[Vec3], modulus: f64) -> Vec<f64> {
+        let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
+        let of_cell = |nodes: &[NodeId]| {
+            let x: Vec<Vec3> = nodes.iter().map(at).collect();
+            modulus * self.points.stretch_of_middle(&x)
+        };
+        self.ends.chunks_exact(self.nnode).map(of_cell).collect()
+    }
+
+    /// Bounds what rounding of displacements does to the forces of a cell: strains are sums of as many products as there are
+    /// nodes.
+    pub fn doubt(&self, cell: usize, stiffer: f64, of: &Scratch, out: &mut dyn Sink) {
+        let largest = |u: &[f64]| u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
+        let factor = f64::EPSILON * self.nnode as f64 * stiffer;
+        let rigidity = self.rigidity.get(cell).copied().unwrap_or_default();
+        let Some(&of_middle) = self.of_middle.get(cell) else {
+            out.uncertain(&of.dofs, factor * rigidity * largest(&of.u));
+            return;
+        };
+        let (middle, half) = of.u.split_at(of.u.len() / 2);
+        let (middle, half) = (largest(middle), largest(half));
+        let mixed = (of_middle * rigidity).sqrt();
+        let (to_middle, to_half) = of.dofs.split_at(of.dofs.len() / 2);
+        out.uncertain(to_middle, factor * (of_middle * middle + mixed * half));
+        out.uncertain(to_half, factor * (mixed * middle + rigidity * half));
     }
 
     /// Checks that no node lies beyond the axis, and no quadrature point on it.
     pub fn radii(&self, body: &str, reference: &[Vec3]) -> Result<(), SolidError> {
-        for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
+        for (nodes, &label) in self.all_ends().chunks_exact(self.nnode).zip(&self.labels) {
             let radius = |node: NodeId| reference.get(node as usize).map_or(0.0, |x| x.x);
             let at_point = |point| {
                 let shape = self.points.shape(point).iter();

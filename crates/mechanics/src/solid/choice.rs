@@ -1,7 +1,7 @@
 use super::kernel::Remedy;
 use crate::material::{Kinematics, Material, undeformed_tangent};
 use crate::system::Idealisation;
-use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::element::quadrature::{Rule, through};
 use signorini_geometry::element::{LockingClass, ReferenceElement};
 use std::fmt;
 
@@ -15,6 +15,9 @@ pub enum Integration {
     Reduced,
     /// One order more along the axis of wedge6: nine points; other elements keep the full rule.
     Raised,
+    /// So many points through the thickness of a solid-shell, 2 to 9, at 2 × 2 places of its middle; other elements keep the
+    /// full rule.
+    Through(usize),
 }
 
 /// What is done against locking in bending and of nearly incompressible materials.
@@ -33,6 +36,8 @@ pub enum Locking {
     Incompatible,
     /// The shear strain of the centre at all points of quad4; small strain.
     Shear,
+    /// The solid-shell, of directors.
+    Shell,
 }
 
 impl fmt::Display for Locking {
@@ -44,6 +49,7 @@ impl fmt::Display for Locking {
             Self::FBar => "f-bar",
             Self::Incompatible => "incompatible",
             Self::Shear => "selective-shear",
+            Self::Shell => "solid-shell",
         })
     }
 }
@@ -55,6 +61,7 @@ impl Locking {
             Self::BBar | Self::FBar => Remedy::Dilatation,
             Self::Incompatible => Remedy::Modes,
             Self::Shear => Remedy::Shear,
+            Self::Shell => Remedy::Shell,
         }
     }
 }
@@ -106,6 +113,10 @@ impl Situation {
         self.takes_modes() && self.element.dim() == 2
     }
 
+    fn takes_directors(&self) -> bool {
+        self.takes_modes() && self.element.dim() == 3
+    }
+
     fn is_sheet(&self) -> bool {
         matches!(self.space, Idealisation::PlaneStress { .. })
     }
@@ -142,6 +153,7 @@ impl Situation {
             Locking::Incompatible if !self.takes_modes() => {
                 "incompatible modes exist for quad4 and hex8"
             }
+            Locking::Shell if !self.takes_directors() => "the solid-shell exists for hex8 in space",
             Locking::Shear if finite => "the shear strain of the centre is for small strain",
             Locking::Shear if !self.takes_shear() => {
                 "the shear strain of the centre exists for quad4"
@@ -181,7 +193,8 @@ impl Situation {
         match self.integration {
             Integration::Reduced if self.is_reduced() => self.element.reduced_rule(),
             Integration::Raised => self.element.rules().raised.unwrap_or(usual),
-            Integration::Full | Integration::Reduced => usual,
+            Integration::Through(npoint) if self.takes_directors() => through(npoint),
+            Integration::Full | Integration::Reduced | Integration::Through(_) => usual,
         }
     }
 

@@ -18,6 +18,14 @@ pub enum SolidError {
         /// Dimension of the problem.
         ndim: usize,
     },
+    /// A solid-shell whose nodes are not at the ends of directors.
+    #[error("element {label} of shell \"{body}\" has a node at the end of no director")]
+    NoDirector {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        label: u64,
+    },
     /// An element that is no bar.
     #[error("element {label} of truss \"{body}\" is a {element}: bars are line2 or line3")]
     NotBar {

@@ -44,15 +44,15 @@ impl Solid {
         swells
     }
 
-    /// Adds what displacements and temperatures of the nodes of a cell couple.
-    pub(super) fn couple_heat(&self, nodes: &[NodeId], out: &mut dyn PatternSink) {
+    /// Adds what the displacements that a cell has as unknowns and the temperatures of its nodes couple.
+    pub(super) fn couple_heat(&self, nodes: &[NodeId], ends: &[NodeId], out: &mut dyn PatternSink) {
         if !self.swells() {
             return;
         }
         let axes = 0..self.layout.ndim();
         let of_node = |&node| axes.clone().map(move |axis| self.layout.node(node, axis));
         let motions: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
-        let heat = nodes.iter().map(|&node| self.layout.temperature(node));
+        let heat = ends.iter().map(|&node| self.layout.temperature(node));
         out.coupling(&motions, &heat.collect::<Vec<Dof>>());
     }
 }

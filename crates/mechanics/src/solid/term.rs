@@ -10,8 +10,9 @@ use super::scratch::{Scratch, Wanted};
 use super::{AtNodes, Integration, Locking, report};
 use crate::material::{Kinematics, Material, Reduced};
 use crate::system::{
-    Capabilities, Frame, Idealisation, Layout, Lifetime, NodalField, Order, Part, PatternSink,
-    Phase, Properties, Sink, State, StepContext, Stored, Symmetry, Term, TermError, Work,
+    Capabilities, Directors, Frame, Idealisation, Layout, Lifetime, NodalField, Order, Part,
+    PatternSink, Phase, Properties, Sink, State, StepContext, Stored, Symmetry, Term, TermError,
+    Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -78,6 +79,17 @@ pub struct SolidParts<'a> {
     pub initial: &'a [AtStart],
     /// Axes of a material that takes those of points; none: those of the frame.
     pub axes: Option<MaterialAxes>,
+    /// The directors of its cells, where it is a solid-shell.
+    pub directors: &'a Directors,
+}
+
+/// Makes places of the ends of directors their middles and halves.
+fn to_directors(places: &mut [Vec3]) {
+    let (negative, positive) = places.split_at_mut(places.len() / 2);
+    for (negative, positive) in negative.iter_mut().zip(positive) {
+        let (low, high) = (*negative, *positive);
+        (*negative, *positive) = ((low + high) * 0.5, (high - low) * 0.5);
+    }
 }
 
 /// A material as it answers in a space.
@@ -111,6 +123,7 @@ impl Solid {
             at_nodes,
             initial,
             axes,
+            directors,
         } = parts;
         let linear = vec![is_linear(material.as_ref())];
         let material = in_space(material, space);
@@ -154,7 +167,18 @@ impl Solid {
             };
             places[at].push(place);
             let of_block = &mut blocks[at].1;
-            of_block.nodes.extend_from_slice(mesh.cell(id));
+            if locking == Locking::Shell {
+                let carriers = directors.carriers(mesh.cell(id));
+                of_block
+                    .nodes
+                    .extend(carriers.ok_or_else(|| SolidError::NoDirector {
+                        body: name.to_string(),
+                        label,
+                    })?);
+                of_block.ends.extend_from_slice(mesh.cell(id));
+            } else {
+                of_block.nodes.extend_from_slice(mesh.cell(id));
+            }
             of_block.labels.push(label);
             of_block.ids.push(id);
         }
@@ -168,6 +192,7 @@ impl Solid {
             block.begin(name, initial)?;
             block.orient(name, axes.as_ref(), &places[number], &reference)?;
             block.rigidity = block.rigidities(&reference, space, material.modulus());
+            block.of_middle = block.rigidities_of_middles(&reference, material.modulus());
             let ncell = block.labels.len();
             chunks.extend(
                 (0..ncell)
@@ -474,7 +499,7 @@ impl Solid {
             return;
         };
         let since = block.part.since(cell);
-        let nodes = block.nodes_of(cell).iter();
+        let nodes = block.ends_of(cell).iter();
         let start = |node: NodeId| field.at_begin(since.unwrap_or(0), node);
         now.extend(nodes.clone().map(|&node| match at {
             At::Trial(_) => at.temperature(&self.layout, field, &self.step, node),
@@ -490,6 +515,7 @@ impl Solid {
             x: &[],
             u: &[],
             way: &[],
+            correction: &[],
             rate: &[],
             slope: 0.0,
             material: self.material(),
@@ -512,9 +538,12 @@ impl Solid {
     pub(super) fn place(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
         self.locate(block, cell, at, scratch);
         scratch.x.clear();
-        let nodes = block.nodes_of(cell).iter();
+        let nodes = block.ends_of(cell).iter();
         let places = nodes.map(|&node| self.reference[node as usize]);
         scratch.x.extend(places);
+        if !block.ends.is_empty() {
+            to_directors(&mut scratch.x);
+        }
         let origin = self.origin(block, cell);
         if !origin.is_empty() {
             let ndim = self.layout.ndim();
@@ -644,9 +673,9 @@ impl Term for Solid {
     fn pattern(&self, out: &mut dyn PatternSink) {
         for block in &self.blocks {
             let cells = block.nodes.chunks_exact(block.nnode).enumerate();
-            for (_, nodes) in cells.filter(|(cell, _)| block.part.is_active(*cell)) {
+            for (cell, nodes) in cells.filter(|(cell, _)| block.part.is_active(*cell)) {
                 out.bulk(nodes);
-                self.couple_heat(nodes, out);
+                self.couple_heat(nodes, block.ends_of(cell), out);
             }
         }
     }
@@ -709,11 +738,8 @@ impl Term for Solid {
         let stiffer = 1.0 + self.damping.retardation * slope;
         self.each(chunk, at, wanted, scratch, |block, cell, _, s| {
             self.hand(at, s, out);
-            self.hand_thermal(block.nodes_of(cell), s, out);
-            // strains are sums of as many products as there are nodes
-            let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
-            let sum = block.rigidity[cell] * block.nnode as f64 * stiffer;
-            out.uncertain(&s.dofs, f64::EPSILON * sum * far);
+            self.hand_thermal(block.ends_of(cell), s, out);
+            block.doubt(cell, stiffer, s, out);
         })
     }
 
@@ -757,7 +783,7 @@ impl Term for Solid {
                 let npoint = block.points.rule.npoint();
                 let active = (first..last).filter(|cell| block.part.is_active(*cell));
                 for (cell, samples) in active.zip(samples.chunks_exact(npoint)) {
-                    let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
+                    let (id, nodes) = (block.ids[cell], block.ends_of(cell));
                     report::add(frame, id, nodes, &block.extrapolation, samples);
                 }
             }
@@ -774,7 +800,7 @@ impl Term for Solid {
         }
         if let Some(field) = &self.temperature {
             frame.temperature.resize(frame.stress.len(), 0.0);
-            for &node in self.blocks.iter().flat_map(|b| &b.nodes) {
+            for &node in self.blocks.iter().flat_map(|b| b.all_ends()) {
                 if let Some(to) = frame.temperature.get_mut(node as usize) {
                     *to = At::Trial(state).temperature(&self.layout, field, &self.step, node);
                 }

@@ -196,6 +196,7 @@ fn solid(name: &str, material: fn() -> Box<dyn Material>) -> Specimen {
             at_nodes: Default::default(),
             initial: &[],
             axes: None,
+            directors: &crate::system::Directors::default(),
         });
         Box::new(solid.unwrap())
     })

@@ -234,6 +234,27 @@ impl Elimination {
         self.relations = relations;
     }
 
+    /// Adds relations to those there are.
+    pub(super) fn relate_more(&mut self, layout: &Layout, mut more: Vec<Relation>) {
+        let mut relations = std::mem::take(&mut self.relations);
+        relations.append(&mut more);
+        self.relate(layout, relations, self.course);
+    }
+
+    /// Adds what a dof follows to a relation, the dof itself where it follows nothing.
+    pub(super) fn add_terms(&self, dof: Dof, weight: f64, layout: &Layout, to: &mut Relation) {
+        let mut of = dof;
+        if let Some(turn) = self.leader(dof, layout) {
+            of = layout.translation(turn.carrier, turn.axis);
+            to.turns.push((turn, weight));
+        }
+        self.linear(of, weight, &mut |d: Dof, c: f64| to.terms.push((d, c)));
+        if let Some(relation) = self.relation(of) {
+            let turns = relation.turns.iter();
+            to.turns.extend(turns.map(|&(turn, c)| (turn, weight * c)));
+        }
+    }
+
     /// The dof by which right-hand sides grow.
     #[must_use]
     pub const fn course(&self) -> Option<Dof> {

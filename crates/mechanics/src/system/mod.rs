@@ -51,6 +51,7 @@ mod capabilities;
 #[cfg(test)]
 mod conformance;
 mod course;
+mod director;
 mod elimination;
 mod frame;
 mod heat_flows;
@@ -87,6 +88,7 @@ pub use capabilities::{
     Inertial, InitialStiffness, Sampled, SampledHeat, Stored, Verdict, Viscous, Wearing,
 };
 pub use course::{NodalField, TimeFunction, interpolate};
+pub use director::{Director, Directors};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
     ContactFrame, ContactSample, ContactWarmth, Energies, FluidFrame, Footprint, Frame, FreeMotion,

@@ -26,7 +26,7 @@ mod degree;
 mod points;
 
 pub use degree::{MAX_DEGREE, of_degree};
-pub use points::{gauss, lobatto, on_facet};
+pub use points::{gauss, lobatto, on_facet, through};
 
 use crate::tensor::Vec3;
 

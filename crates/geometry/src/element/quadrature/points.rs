@@ -1,7 +1,36 @@
 //! Rules with any number of points, for facets.
 
 use super::super::{Element, Family};
+use super::{QUAD_4, Rule};
 use crate::tensor::Vec3;
+use std::sync::LazyLock;
+
+/// The most points through a thickness.
+const MOST_THROUGH: usize = 9;
+
+/// 2 × 2 points in the middle of a brick and 2 to 9 along ζ, the number clamped to these: the rule of thin bodies.
+#[must_use]
+pub fn through(npoint: usize) -> &'static Rule {
+    static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (0..=MOST_THROUGH).map(product).collect());
+    let npoint = npoint.clamp(2, MOST_THROUGH);
+    RULES.get(npoint).unwrap_or(&super::HEX_8)
+}
+
+/// [`QUAD_4`] times Gauss–Legendre; the points live as long as the program.
+fn product(npoint: usize) -> Rule {
+    let along = gauss(npoint);
+    let middle = || {
+        along
+            .iter()
+            .flat_map(|line| QUAD_4.iter().map(move |one| (one, line)))
+    };
+    let points = middle().map(|((xi, _), (z, _))| Vec3::new(xi.x, xi.y, *z));
+    let weights = middle().map(|((_, weight), (_, along))| weight * along);
+    Rule {
+        points: points.collect::<Vec<_>>().leak(),
+        weights: weights.collect::<Vec<_>>().leak(),
+    }
+}
 
 /// Points and weights of Gauss–Legendre on `[-1, 1]`, exact for polynomials of degree `2n − 1`; one point at least.
 ///

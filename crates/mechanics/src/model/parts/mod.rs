@@ -10,7 +10,7 @@ use crate::load::{Acting, Course, RadiationConstants};
 use crate::material::{Conductor, Material};
 use crate::solid::{AtNodes, AtStart, Integration, Locking, MaterialAxes, Storage};
 use crate::solve::{Increments, Motion, Vibration};
-use crate::system::{CellChange, Idealisation, Physics, Scheme};
+use crate::system::{CellChange, Director, Idealisation, Physics, Scheme};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -24,6 +24,8 @@ pub struct Parts<'a> {
     pub space: Idealisation,
     /// The bodies.
     pub bodies: Vec<BodyPart>,
+    /// The directors of solid-shells.
+    pub directors: Vec<Director>,
     /// What rigid bodies and couplings move with. Their numbers, [`RigidId`], are their places here.
     pub carriers: Vec<CarrierPart>,
     /// Springs.
@@ -69,6 +71,7 @@ impl<'a> Parts<'a> {
             mesh,
             space,
             bodies: Vec::new(),
+            directors: Vec::new(),
             carriers: Vec::new(),
             springs: Vec::new(),
             constraints: Vec::new(),

@@ -13,6 +13,8 @@ pub(in crate::solid) struct Element<'a> {
     pub u: &'a [f64],
     /// Their way in the increment, where stresses are secants; `u` is then halfway.
     pub way: &'a [f64],
+    /// The last correction of Newton's method, where stresses are predicted by it.
+    pub correction: &'a [f64],
     /// Their velocities, where stresses follow from rates of strain, and by what these change with displacements.
     pub rate: &'a [f64],
     pub slope: f64,
@@ -191,6 +193,26 @@ impl Points {
 
     pub fn dshape(&self, point: usize) -> &[Vec3] {
         &self.dshape[point * self.nnode..(point + 1) * self.nnode]
+    }
+
+    /// `∫ max_k |N_k,X|² dV` over a brick whose nodes are at `x`, with the functions of the quadrilateral in its middle; 0 where
+    /// its map has no inverse.
+    pub fn stretch_of_middle(&self, x: &[Vec3]) -> f64 {
+        let dshape = &self.dshape_at_centre;
+        let mut jacobian = Mat3::ZERO;
+        for (x, d) in x.iter().zip(dshape) {
+            for (row, slope) in jacobian.rows.iter_mut().zip(d.to_array()) {
+                *row += *x * slope;
+            }
+        }
+        let Some((inverse, det)) = jacobian.inverse() else {
+            return 0.0;
+        };
+        let (negative, positive) = dshape.split_at(dshape.len() / 2);
+        let middles = negative.iter().zip(positive).map(|(a, b)| *a + *b);
+        let slopes = middles.map(|d| (inverse * d).norm_squared());
+        let volume = self.rule.weights.iter().sum::<f64>() * det.abs();
+        slopes.fold(0.0, f64::max) * volume
     }
 
     /// `∫ max_i |N_i,X|² dV` over a cell whose nodes are at `x`; 0 where its map has no inverse.

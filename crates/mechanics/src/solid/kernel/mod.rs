@@ -17,12 +17,14 @@ mod modes;
 mod plain;
 mod secant;
 mod shear;
+mod shell;
 mod stiffness;
 mod viscous;
 
 pub(super) use batch::{Batch, BatchKernel, Results};
 pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 pub(super) use lanes::width;
+pub(super) use shell::NMODE;
 pub(super) use stiffness::mirror;
 
 use crate::material::dense;
@@ -41,6 +43,7 @@ pub(super) enum Remedy {
     Dilatation,
     Modes,
     Shear,
+    Shell,
 }
 
 /// The kernels of elements with so many nodes: without remedy, with a projected dilatation, with incompatible modes, with the shear strain
@@ -180,7 +183,7 @@ pub(super) fn viscous_kernel(
     match remedy {
         Remedy::None => Some(plain),
         Remedy::Dilatation => Some(dilatation),
-        Remedy::Modes | Remedy::Shear => None,
+        Remedy::Modes | Remedy::Shear | Remedy::Shell => None,
     }
 }
 
@@ -196,6 +199,9 @@ pub(super) fn kernel(
         Remedy::Dilatation => found.dilatation,
         Remedy::Modes => found.modes,
         Remedy::Shear => found.shear,
+        Remedy::Shell => {
+            (found.nnode == 8 && space == Idealisation::Space).then_some(shell::respond)
+        }
     }
 }
 

@@ -36,6 +36,7 @@ fn of_law(
         at_nodes: Default::default(),
         initial: &[],
         axes,
+        directors: &Directors::default(),
     })?;
     solid.set_kinematics(wish.kinematics);
     Ok(Body { solid, ..plain })

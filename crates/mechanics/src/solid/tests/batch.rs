@@ -163,6 +163,7 @@ fn every_lane_has_the_history_temperature_and_start_of_its_cell() {
                 at_nodes: Default::default(),
                 initial: &initial,
                 axes: None,
+                directors: &crate::system::Directors::default(),
             });
             if let Ok(solid) = &mut solid {
                 solid.set_kinematics(kinematics);

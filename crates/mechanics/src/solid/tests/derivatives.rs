@@ -73,7 +73,7 @@ impl Material for Skew {
     }
 }
 
-type Make = Box<dyn Fn() -> Box<dyn Material>>;
+pub(super) type Make = Box<dyn Fn() -> Box<dyn Material>>;
 
 /// Steel that yields at a small strain already.
 pub(super) fn plastic() -> Box<dyn Material> {
@@ -83,7 +83,7 @@ pub(super) fn plastic() -> Box<dyn Material> {
 }
 
 /// Every law of the table, and those that are not in it.
-fn laws() -> Vec<(&'static str, Make)> {
+pub(super) fn laws() -> Vec<(&'static str, Make)> {
     let mut laws: Vec<(&'static str, Make)> = Vec::new();
     for law in &TABLE {
         let make = || (law.make)(&Constants::sample()).unwrap();
@@ -108,7 +108,7 @@ fn slope(h: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h)
 }
 
-fn check(body: &Body, potential: bool, what: &str) {
+pub(super) fn check(body: &Body, potential: bool, what: &str) {
     let n = body.layout.ndof();
     let size = if n > 24 { 0.02 } else { 0.05 };
     let u: Vec<f64> = (0..n).map(|k| size * noise(100 + k)).collect();
@@ -161,6 +161,7 @@ pub(super) fn allowed(element: &str, wish: &Wish) -> bool {
         Locking::FBar => finite && !sheet && !bare && !reduced,
         Locking::Incompatible => !finite && ["quad4", "hex8"].contains(&element),
         Locking::Shear => !finite && element == "quad4",
+        Locking::Shell => element == "hex8",
     }
 }
 

@@ -63,7 +63,7 @@ impl Hot {
             mut solid,
             reference,
             ..
-        } = body_in(layout, mesh, material, wish, given).ok()?;
+        } = body_in(layout, mesh, material, wish, given, &Directors::default()).ok()?;
         let mut heat = HeatInBody::new(HeatParts {
             name: "body",
             mesh,

@@ -163,6 +163,7 @@ fn stiffness_at_the_start_is_that_of_the_temperature_at_the_start() {
             at_nodes: Default::default(),
             initial: &[],
             axes: None,
+            directors: &crate::system::Directors::default(),
         };
         Solid::new(parts).unwrap()
     };
@@ -230,6 +231,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         at_nodes: Default::default(),
         initial: &[],
         axes: None,
+        directors: &crate::system::Directors::default(),
     })
     .unwrap();
     assert_eq!(solid.properties().symmetry, Symmetry::Unsymmetric);

@@ -6,9 +6,9 @@ use crate::material::{
     MaterialError, Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
 };
 use crate::system::{
-    Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, InitialStiffness, Layout,
-    Lifetime, NodalField, Order, Phase, Sampled, Samples, Sink, State, StepContext, Stored,
-    Symmetry, Term, TermError, Work,
+    Archive, Assembler, Assembly, Director, Directors, Dof, Elimination, Frame, Idealisation,
+    InitialStiffness, Layout, Lifetime, NodalField, Order, Phase, Sampled, Samples, Sink, State,
+    StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::{self, Element};
 use signorini_geometry::mesh::{CellId, Mesh};
@@ -24,6 +24,7 @@ mod history;
 mod locking;
 mod patch;
 mod samples;
+mod shell;
 mod speed;
 mod start;
 mod truss;
@@ -113,7 +114,7 @@ impl Wish {
 
 fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, SolidError> {
     let layout = Layout::new(wish.space.ndim(), mesh.nnode(), 0);
-    body_in(layout, mesh, material, wish, None)
+    body_in(layout, mesh, material, wish, None, &Directors::default())
 }
 
 /// A body in a layout that may have temperatures, with those that are given.
@@ -123,6 +124,7 @@ fn body_in(
     material: Box<dyn Material>,
     wish: &Wish,
     temperature: Option<Arc<NodalField>>,
+    directors: &Directors,
 ) -> Result<Body, SolidError> {
     let cells: Vec<_> = mesh.cells(wish.space.ndim()).collect();
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
@@ -142,6 +144,7 @@ fn body_in(
         at_nodes: Default::default(),
         initial: &[],
         axes: None,
+        directors,
     })?;
     solid.locking(wish.kinematics)?;
     solid.set_kinematics(wish.kinematics);

@@ -159,6 +159,7 @@ fn thermal_growth_is_no_mechanical_strain() {
             at_nodes: Default::default(),
             initial: &[],
             axes: None,
+            directors: &crate::system::Directors::default(),
         })
         .unwrap();
         let u: Vec<f64> = (0..plain.layout.ndof()).map(|k| 0.02 * noise(k)).collect();

@@ -60,6 +60,7 @@ fn measure_hexahedra_per_second() {
             at_nodes: Default::default(),
             initial: &[],
             axes: None,
+            directors: &crate::system::Directors::default(),
         });
         let mut solid = solid.unwrap();
         solid.set_kinematics(if nonlinear {

@@ -33,6 +33,7 @@ fn with(
         at_nodes: Default::default(),
         initial,
         axes: None,
+        directors: &crate::system::Directors::default(),
     })?;
     solid.set_kinematics(wish.kinematics);
     Ok(Body { solid, ..plain })
@@ -85,7 +86,7 @@ fn a_stress_at_the_start_adds_to_that_of_the_strain() {
         };
         let npoint = match integration {
             Integration::Full | Integration::Raised => 27,
-            Integration::Reduced => 8,
+            Integration::Reduced | Integration::Through(_) => 8,
         };
         let initial = everywhere(&mesh, npoint, stress, Sym3::ZERO);
         let [plain, body] = [&[][..], &initial].map(|at| with(&mesh, &wish, at, None).unwrap());

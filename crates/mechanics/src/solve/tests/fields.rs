@@ -216,6 +216,7 @@ impl Bar {
             at_nodes: Default::default(),
             initial: &[],
             axes: None,
+            directors: &crate::system::Directors::default(),
         });
         let heat = Heat {
             layout,
