@@ -3,6 +3,7 @@
 //! ```text
 //! tensor ◀── element ◀── mesh ◀── surface        proximity ──▶ tensor
 //! scalar ◀── overlap ──▶ element                surface ◀── location
+//! expansion ──▶ mesh
 //! ```
 //!
 //! Rooms import only leftwards. Everything here can be used alone: a mesh, a surface made of some of its faces,
@@ -12,6 +13,7 @@
 extern crate self as signorini_geometry; // for the elements that tests of other crates share
 
 pub mod element;
+pub mod expansion;
 pub mod location;
 pub mod mesh;
 pub mod overlap;

@@ -37,12 +37,16 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 48] = [
+const ROOMS: [Room; 49] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
     room("geometry::mesh", &["geometry::tensor", "geometry::element"]),
+    room(
+        "geometry::expansion",
+        &["geometry::tensor", "geometry::element", "geometry::mesh"],
+    ),
     room("geometry::proximity", &["geometry::tensor"]),
     room("geometry::scalar", &[]),
     room(
