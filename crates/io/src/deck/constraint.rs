@@ -208,6 +208,7 @@ impl Translation<'_> {
             orientation: None,
             space: None,
             thickness: None,
+            shell: None,
             temperatures: Temperatures::default(),
             at_nodes: AtNodes::default(),
             area: None,

@@ -37,6 +37,7 @@ impl Section<'_> {
             space: None,
             at_nodes: AtNodes::Linear,
             thickness: None,
+            shell: None,
             temperatures: Temperatures::Full,
             area: None,
             small_strain: false,
@@ -166,6 +167,7 @@ impl Translation<'_> {
                     found.push(TemperatureAt {
                         on: self.named(&targets, &card.place),
                         temperature,
+                        gradient: None,
                         place: card.place.clone(),
                     });
                 }

@@ -45,6 +45,7 @@ impl Translation<'_> {
                 self.case.initial_temperatures.push(TemperatureAt {
                     on,
                     temperature,
+                    gradient: None,
                     place: line.place.clone(),
                 });
                 let everywhere = || Spanned::new(0.0, line.place.clone());
@@ -77,6 +78,7 @@ impl Translation<'_> {
             step.temperatures.push(Temperature {
                 on,
                 value: motion(*value, amplitude.as_ref(), sudden, step.duration),
+                gradient: None,
                 place: line.place.clone(),
             });
         }
@@ -117,6 +119,7 @@ impl Translation<'_> {
             step.temperatures.push(Temperature {
                 on,
                 value: Motion::Ramp(value),
+                gradient: None,
                 place: card.place.clone(),
             });
         }

@@ -45,6 +45,7 @@
 //! | [`PerNode`], [`Moment`] | nodes, carriers |
 //! | [`Wrench`] | carriers |
 //! | [`Traction`], [`Pressure`] | faces |
+//! | [`Line`] | faces of edges of shells, by their thickness |
 //! | [`BodyForce`] | cells, by volume |
 //! | [`Gravity`] | cells, by mass; carriers with a mass, and masses at nodes |
 //! | [`Spin`] | cells, by mass |
@@ -64,6 +65,7 @@ mod force;
 mod gravity;
 mod heat;
 mod kind;
+mod line;
 mod local;
 pub mod mass;
 mod moment;
@@ -88,6 +90,7 @@ pub use heat::{Film, HeatFlux, HeatPower, HeatSource, Radiation};
 pub use kind::{
     Acting, Domain, Effect, Load, LoadError, LoadProperties, Place, RadiationConstants, Site,
 };
+pub use line::Line;
 pub use moment::Moment;
 pub use nodal_forces::NodalForces;
 pub use per_node::PerNode;
@@ -101,11 +104,12 @@ use signorini_vocabulary::{Description, Entry};
 use std::sync::Arc;
 
 /// The loads that a case may choose by name.
-pub static TABLE: [Entry<Arc<dyn Load>>; 13] = [
+pub static TABLE: [Entry<Arc<dyn Load>>; 14] = [
     force::ENTRY,
     per_node::ENTRY,
     traction::ENTRY,
     pressure::ENTRY,
+    line::ENTRY,
     moment::ENTRY,
     body_force::ENTRY,
     gravity::ENTRY,

@@ -8,7 +8,7 @@ pub(super) const ENTRY: Entry<Arc<dyn Load>> = Entry {
     description: Description::bare(&[key(
         "moment",
         VECTOR,
-        "the moment [x, y, z] about the centre of what it acts on",
+        "the moment [x, y, z] about the centre of what it acts on; of shell nodes: at each",
     )
     .hints(&["torque"])
     .across_plane()]),

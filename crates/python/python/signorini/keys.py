@@ -79,8 +79,36 @@ class BodyOrientation(Table):
     )
 
 
+class BodyShell(Table):
+    """A shell of elements tri3, tri6, quad4 or quad8 in space, which become solids of this thickness: from the negative side, S1, to the positive one, S2, from which the nodes of an element run counter-clockwise.
+
+    TOML: `body.shell`.
+    """
+
+    _toml = "body.shell"
+    normals: Key[float, float] = Key(
+        "The angle (degrees) up to which elements at a node share their normal; beyond it they meet at an edge",
+        "number ≥ 0.0, ≤ 180.0",
+        default=20.0,
+    )
+    offset: Key[float, float] = Key(
+        "Distance of the nodes from the middle surface, in thicknesses; positive towards the positive side: with 0.5 they lie on it",
+        "number",
+        default=0.0,
+    )
+    points: Key[int, int] = Key(
+        "Integration points through the thickness; take 5 of materials that yield",
+        "whole number ≥ 2, ≤ 9",
+        default=2,
+    )
+    thickness: Key[float | Literal["field"] | None, float | Literal["field"]] = Key(
+        "Thickness (length), or field: that of [[thickness]] at its nodes",
+        "number > 0.0 or `\"field\"`",
+    )
+
+
 class Body(Table):
-    """Groups of elements that are solids, bars (of line elements) or rigid tools.
+    """Groups of elements that are solids, shells (of elements of the plane, in space), bars (of line elements) or rigid tools.
 
     TOML: `body`.
     """
@@ -130,6 +158,11 @@ class Body(Table):
         "text",
     )
     rigid: Key[bool, bool] = Key("Whether it moves as a whole", "`true` or `false`", default=False)
+    shell: One[BodyShell] = One(
+        BodyShell,
+        "A shell of elements tri3, tri6, quad4 or quad8 in space, which become solids of this thickness: from the negative side, S1, to the positive one, S2, from which the nodes of an element run counter-clockwise",
+        "a table",
+    )
     space: Key[Literal["plane-strain", "plane-stress", "axisymmetric"] | None, Literal["plane-strain", "plane-stress", "axisymmetric"]] = Key(
         "What the plane of this body stands for; absent: what that of the model does",
         "`\"plane-strain\"`, `\"plane-stress\"`, `\"axisymmetric\"`",
@@ -984,6 +1017,10 @@ class InitialAt(Table):
     """
 
     _toml = "initial.at"
+    gradient: Key[float | None, float] = Key(
+        "Of shells: change of temperature per length along their normal; `temperature` is that of the middle surface",
+        "number",
+    )
     on: Key[str | None, str] = Key("The set or group", "text")
     temperature: Key[float | None, float] = Key("The temperature at the start", "number")
 
@@ -1761,7 +1798,7 @@ class Set(Table):
         "list of whole number ≥ 0",
     )
     faces: Key[list[list[Any]] | None, Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
-        "Rows [element, side]: side \"S1\", \"S2\", … as in Abaqus, or \"+z\", \"-x\", … by its normal",
+        "Rows [element, side]: side \"S1\", \"S2\", … as in Abaqus, or \"+z\", \"-x\", … by its normal; of shells S1 is the negative side, S2 the positive one, S3, S4, … the edges",
         "list of list of whole number ≥ 0; text, 2 of them",
     )
     near: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
@@ -1998,7 +2035,7 @@ class Fix(Table):
     _toml = "step.fix"
     on: Key[str | None, str] = Key("The set, mesh group, reference or rigid body it acts on", "text")
     rot: Key[Literal["all"] | list[Literal["x", "y", "z"]] | None, Literal["all"] | Sequence[Literal["x", "y", "z"]]] = Key(
-        "Rotations held, of a reference or rigid body",
+        "Rotations held, of a reference, rigid body or shell nodes",
         "`\"all\"` or list of `\"x\"`, `\"y\"`, `\"z\"`",
     )
     u: Key[Literal["all"] | list[Literal["x", "y", "z"]] | None, Literal["all"] | Sequence[Literal["x", "y", "z"]]] = Key(
@@ -2016,7 +2053,7 @@ class Free(Table):
     _toml = "step.free"
     on: Key[str | None, str] = Key("The set, mesh group, reference or rigid body it acts on", "text")
     rot: Key[Literal["all"] | list[Literal["x", "y", "z"]] | None, Literal["all"] | Sequence[Literal["x", "y", "z"]]] = Key(
-        "Rotations set free, of a reference or rigid body",
+        "Rotations set free, of a reference, rigid body or shell nodes",
         "`\"all\"` or list of `\"x\"`, `\"y\"`, `\"z\"`",
     )
     temperature: Key[bool, bool] = Key(
@@ -2141,8 +2178,12 @@ class Load(Table):
     heat_flux: Key[float | None, float] = Key("Heat per time and area into a surface", "number")
     heat_power: Key[float | None, float] = Key("Heat per time, spread over what it acts on", "number")
     heat_source: Key[float | None, float] = Key("Heat per time and volume, within bodies", "number")
+    line: Key[float | None, float] = Key(
+        "Force per length of edges of shells, within the shell and normal to the edge, positive inwards",
+        "number",
+    )
     moment: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
-        "The moment [x, y, z] about the centre of what it acts on",
+        "The moment [x, y, z] about the centre of what it acts on; of shell nodes: at each",
         "list of number",
     )
     name: Key[str | None, str] = Key("Its name: a later load of this name replaces it", "text")
@@ -2295,6 +2336,10 @@ class Temperature(Table):
     """
 
     _toml = "step.temperature"
+    gradient: Key[float | None, float] = Key(
+        "Of shells: change of temperature per length along their normal, with the course of `value`, which is that of the middle surface",
+        "number",
+    )
     on: Key[str | None, str] = Key("The set or group; \"all\" is everything", "text")
     value: Mixed[Motion] = Mixed(
         Motion,
@@ -2604,7 +2649,7 @@ class Surface(Table):
 
 
 class Thickness(Table):
-    """Thickness at nodes, of plane bodies with thickness = "field"; of several that name a node the last holds.
+    """Thickness at nodes, of plane bodies and shells with thickness = "field"; of several that name a node the last holds.
 
     TOML: `thickness`.
     """
@@ -2632,7 +2677,7 @@ class CaseTable(Table):
     )
     bodies: Items[Body] = Items(
         Body,
-        "Groups of elements that are solids, bars (of line elements) or rigid tools",
+        "Groups of elements that are solids, shells (of elements of the plane, in space), bars (of line elements) or rigid tools",
         "list of a table",
         key="body",
     )
@@ -2691,7 +2736,7 @@ class CaseTable(Table):
     )
     thickness: Items[Thickness] = Items(
         Thickness,
-        "Thickness at nodes, of plane bodies with thickness = \"field\"; of several that name a node the last holds",
+        "Thickness at nodes, of plane bodies and shells with thickness = \"field\"; of several that name a node the last holds",
         "list of a table",
     )
     title: Key[str, str] = Key("What the run is about, for reports", "text", default="")
@@ -2713,6 +2758,7 @@ if TYPE_CHECKING:
         "orientation": str | BodyOrientation | Mapping[str, Any],
         "reference": str,
         "rigid": bool,
+        "shell": BodyShell | Mapping[str, Any],
         "space": Literal["plane-strain", "plane-stress", "axisymmetric"],
         "strain": Literal["auto", "small"],
         "temperatures": Literal["full", "linear"],

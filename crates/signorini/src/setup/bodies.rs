@@ -223,12 +223,22 @@ fn body_part(
     })
 }
 
+/// Refuses shells.
+pub(super) fn refuse_shells(case: &Case, found: &mut Diagnostics) {
+    let mut shells = case.bodies.iter().filter_map(|body| body.shell.as_ref());
+    if let Some(shell) = shells.next() {
+        let message = Diagnostic::error(&codes::NOT_BUILT, "shells are not built yet");
+        found.push(message.at(&shell.place, "known, but this version cannot do it"));
+    }
+}
+
 /// A warning of thicknesses at nodes that no body takes.
 fn unused_thickness(case: &Case) -> Option<Diagnostic> {
     let first = case.thicknesses.first()?;
     let takes = |body: &Body| {
-        let thickness = body.thickness.as_ref();
-        thickness.is_some_and(|of| of.value == Thickness::Field)
+        let of_shell = body.shell.as_ref().map(|shell| &shell.thickness);
+        let mut given = body.thickness.iter().chain(of_shell);
+        given.any(|of| of.value == Thickness::Field)
     };
     let is_unused = !case.bodies.iter().any(takes);
     is_unused.then(|| {
@@ -237,7 +247,7 @@ fn unused_thickness(case: &Case) -> Option<Diagnostic> {
             "thicknesses at nodes that change nothing",
         )
         .at(&first.place, "no body takes them")
-        .help("write  thickness = \"field\"  in a [[body]]")
+        .help("write  thickness = \"field\"  in a [[body]] or its `shell`")
     })
 }
 

@@ -193,6 +193,7 @@ fn build_of(
 ) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
     own::check(&case, own, &mut found);
+    bodies::refuse_shells(&case, &mut found);
     // what is lacking draws other messages after it
     if found.has_errors() {
         return Err(found);

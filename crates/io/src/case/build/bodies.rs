@@ -285,6 +285,7 @@ impl Builder<'_> {
             "orientation",
             "space",
             "thickness",
+            "shell",
             "temperatures",
             "at_nodes",
             "area",
@@ -315,6 +316,7 @@ impl Builder<'_> {
             Spanned::new(space, word.place)
         });
         self.plane(&fields, space.as_ref(), name);
+        let shell = self.shell(&fields, name);
         let locking = fields.text("locking");
         Body {
             material: fields.text_if("material"),
@@ -337,6 +339,7 @@ impl Builder<'_> {
             orientation: self.body_axes(&fields),
             space,
             thickness: thickness(&fields),
+            shell,
             temperatures: match fields.text("temperatures").value.as_str() {
                 "linear" => Temperatures::Linear,
                 _ => Temperatures::Full,
@@ -744,8 +747,8 @@ fn component_of(word: &str) -> Option<usize> {
 /// The names of displacements and rotations, in their order.
 pub(in super::super) const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// The thickness of a body in the plane.
-fn thickness(fields: &Fields<'_>) -> Option<Spanned<Thickness>> {
+/// The thickness of a body in the plane, or of a shell.
+pub(super) fn thickness(fields: &Fields<'_>) -> Option<Spanned<Thickness>> {
     if let Some(word) = fields.text_if("thickness") {
         return Some(Spanned::new(Thickness::Field, word.place));
     }

@@ -410,6 +410,7 @@ pub(super) fn temperatures_at(fields: Fields<'_>) -> Vec<TemperatureAt> {
     let at = tables.map(|(fields, place)| TemperatureAt {
         on: fields.text("on"),
         temperature: fields.number("temperature"),
+        gradient: fields.number_if("gradient").map(|number| number.value),
         place,
     });
     at.collect()

@@ -8,6 +8,7 @@ mod general;
 mod geometry;
 mod names;
 mod run;
+mod shell;
 mod steps;
 mod surface;
 
@@ -44,6 +45,7 @@ pub(super) fn build(
     builder.names(&case);
     builder.cycles(&case);
     builder.references(&case, root);
+    builder.without_shells(&case);
     builder.surfaces(&case);
     builder.pairs(&case);
     builder.contact_changes(&case);

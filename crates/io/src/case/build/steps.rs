@@ -298,16 +298,32 @@ impl Builder<'_> {
             temperatures: fields
                 .tables("temperature")
                 .into_iter()
-                .map(|(one, place)| Temperature {
-                    on: one.text("on"),
-                    value: self.course(one, "value").unwrap_or(Motion::Ramp(0.0)),
-                    place,
-                })
+                .map(|(one, place)| self.temperature(one, place))
                 .collect(),
             prints: fields.has("print").then(|| {
                 let tables = fields.tables("print").into_iter();
                 tables.map(|(one, place)| print(one, place)).collect()
             }),
+            place,
+        }
+    }
+
+    /// Temperatures; a table of them gives no course that a gradient could have, too.
+    fn temperature(&mut self, fields: Fields<'_>, place: Place) -> Temperature {
+        let value = self.course(fields, "value").unwrap_or(Motion::Ramp(0.0));
+        let gradient = fields.number_if("gradient");
+        if let (Motion::Table(_), Some(gradient)) = (&value, &gradient) {
+            self.error(
+                &codes::CONTRADICTION,
+                "`gradient` does not go with a table of temperatures",
+                &gradient.place,
+                "write  value = number,  or  value = { amplitude = , value = }:  the gradient has the same course",
+            );
+        }
+        Temperature {
+            on: fields.text("on"),
+            value,
+            gradient,
             place,
         }
     }

@@ -201,6 +201,8 @@ pub struct Body {
     pub space: Option<Spanned<Space>>,
     /// Thickness in a plane model; none: that of the model.
     pub thickness: Option<Spanned<Thickness>>,
+    /// What makes shells of its elements; none: they are solids or bars.
+    pub shell: Option<Shell>,
     /// How temperatures vary in an element.
     pub temperatures: Temperatures,
     /// How stresses and strains at points are carried to nodes.
@@ -263,7 +265,29 @@ pub struct VelocityAt {
     pub place: Place,
 }
 
-/// The thickness of a body in the plane.
+/// What makes shells of the elements of a body, which lie in space and have two dimensions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shell {
+    /// Thickness.
+    pub thickness: Spanned<Thickness>,
+    /// Distance of the nodes from the middle surface, in thicknesses, positive towards the positive side.
+    pub offset: f64,
+    /// The angle (degrees) up to which elements at a node share their normal.
+    pub normals: Spanned<f64>,
+    /// Integration points through the thickness.
+    pub points: usize,
+    /// Where it was written.
+    pub place: Place,
+}
+
+impl Shell {
+    /// The angle (degrees) up to which elements at a node share their normal, where nothing else is given.
+    pub const NORMALS: f64 = 20.0;
+    /// Integration points through the thickness, where nothing else is given.
+    pub const POINTS: usize = 2;
+}
+
+/// The thickness of a body in the plane, or of a shell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Thickness {
     /// The same everywhere (length).
@@ -290,6 +314,8 @@ pub struct TemperatureAt {
     pub on: Name,
     /// Their temperature.
     pub temperature: f64,
+    /// Of shells: its change per length along their normal.
+    pub gradient: Option<f64>,
     /// Where it was written.
     pub place: Place,
 }

@@ -402,6 +402,8 @@ pub struct Temperature {
     pub on: Name,
     /// Their course over the step.
     pub value: Motion,
+    /// Of shells: change of temperature per length along their normal, with the same course.
+    pub gradient: Option<Spanned<f64>>,
     /// Where it was written.
     pub place: Place,
 }

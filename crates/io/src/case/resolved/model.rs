@@ -166,10 +166,12 @@ pub(super) fn initial(case: &Case) -> Entries {
     entries.extend(temperature.map(|temperature| ("temperature", temperature.value.into())));
     if !case.initial_temperatures.is_empty() {
         let at = |one: &TemperatureAt| {
-            Value::Table(vec![
+            let mut entries = vec![
                 ("on", (&one.on.value).into()),
                 ("temperature", one.temperature.into()),
-            ])
+            ];
+            entries.extend(one.gradient.map(|gradient| ("gradient", gradient.into())));
+            Value::Table(entries)
         };
         let all = case.initial_temperatures.iter().map(at);
         entries.push(("at", Value::List(all.collect())));
@@ -338,14 +340,13 @@ pub(super) fn body(body: &Body) -> Entries {
     }));
     let space = body.space.as_ref();
     entries.extend(space.map(|space| ("space", space.word().into())));
-    let thickness = body.thickness.as_ref();
-    entries.extend(thickness.map(|thickness| {
-        let value = match thickness.value {
-            Thickness::Uniform(length) => length.into(),
-            Thickness::Field => "field".into(),
-        };
-        ("thickness", value)
-    }));
+    let of_body = body.thickness.as_ref();
+    entries.extend(of_body.map(|of| ("thickness", extent(of.value))));
+    entries.extend(
+        body.shell
+            .as_ref()
+            .map(|one| ("shell", Value::Table(shell(one)))),
+    );
     let temperatures = match body.temperatures {
         Temperatures::Full => "full",
         Temperatures::Linear => "linear",
@@ -372,6 +373,22 @@ pub(super) fn body(body: &Body) -> Entries {
     entries.extend(body.lumped_capacity.then(|| ("capacity", "lumped".into())));
     entries.push(("rigid", false.into()));
     entries
+}
+
+fn extent(thickness: Thickness) -> Value {
+    match thickness {
+        Thickness::Uniform(length) => length.into(),
+        Thickness::Field => "field".into(),
+    }
+}
+
+fn shell(one: &Shell) -> Entries {
+    vec![
+        ("thickness", extent(one.thickness.value)),
+        ("offset", one.offset.into()),
+        ("normals", one.normals.value.into()),
+        ("points", (one.points as u64).into()),
+    ]
 }
 
 pub(super) fn spring(spring: &Spring) -> Entries {

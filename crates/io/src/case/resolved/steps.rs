@@ -267,10 +267,13 @@ fn deactivation(one: &Deactivation) -> Entries {
 }
 
 fn temperature(one: &Temperature) -> Entries {
-    vec![
+    let mut entries = vec![
         ("on", (&one.on.value).into()),
         ("value", course(&one.value)),
-    ]
+    ];
+    let gradient = one.gradient.as_ref();
+    entries.extend(gradient.map(|gradient| ("gradient", gradient.value.into())));
+    entries
 }
 
 fn print(one: &Print) -> Entries {

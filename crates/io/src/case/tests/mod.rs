@@ -5,6 +5,7 @@ mod damage;
 mod faults;
 mod messages;
 mod options;
+mod shells;
 
 use super::vocabulary::{Kinds, Vocabulary};
 use super::*;

@@ -2,6 +2,7 @@
 
 use super::geometry::{AXES_RULES, OF_AXES};
 use super::*;
+use crate::case::parts::Shell;
 
 pub(super) static MATERIAL: Table = Table {
     heading: "[material.NAME]",
@@ -151,7 +152,7 @@ static PLASTICITY: Table = Table {
 
 pub(super) static BODY: Table = Table {
     heading: "[[body]]",
-    doc: "groups of elements that are solids, bars (of line elements) or rigid tools",
+    doc: "groups of elements that are solids, shells (of elements of the plane, in space), bars (of line elements) or rigid tools",
     keys: &[
         key("group", NAMES, "the mesh group, or a list of them")
             .required()
@@ -195,6 +196,7 @@ pub(super) static BODY: Table = Table {
             Shape::Either(&[POSITIVE, Shape::Choice(&[word("field")])]),
             "thickness in a plane model (length), or field: that of [[thickness]] at its nodes; next to bodies of revolution, that of the full circumference; absent: that of the model",
         ),
+        key("shell", Shape::Table(&SHELL), SHELL.doc).hints(&["shell_section", "sheet"]),
         key(
             "temperatures",
             Shape::Choice(&[word("full"), word("linear")]),
@@ -238,6 +240,46 @@ pub(super) static BODY: Table = Table {
             Shape::Text,
             "the [reference] a rigid body moves with; absent: the mean of its nodes",
         ),
+    ],
+    rules: &[],
+};
+
+static SHELL: Table = Table {
+    heading: "shell",
+    doc: "a shell of elements tri3, tri6, quad4 or quad8 in space, which become solids of this thickness: from the negative side, S1, \
+          to the positive one, S2, from which the nodes of an element run counter-clockwise",
+    keys: &[
+        key(
+            "thickness",
+            Shape::Either(&[POSITIVE, Shape::Choice(&[word("field")])]),
+            "thickness (length), or field: that of [[thickness]] at its nodes",
+        )
+        .required()
+        .hints(&["t"]),
+        key(
+            "offset",
+            ANY,
+            "distance of the nodes from the middle surface, in thicknesses; positive towards the positive side: with 0.5 they lie on it",
+        )
+        .or(Default::Number(0.0)),
+        key(
+            "normals",
+            Shape::Number(Bounds {
+                from: Some(0.0),
+                to: Some(180.0),
+                ..FREE
+            }),
+            "the angle (degrees) up to which elements at a node share their normal; beyond it they meet at an edge",
+        )
+        .or(Default::Number(Shell::NORMALS))
+        .hints(&["angle"]),
+        key(
+            "points",
+            Shape::Integer(2, 9),
+            "integration points through the thickness; take 5 of materials that yield",
+        )
+        .or(Default::Integer(Shell::POINTS as i64))
+        .hints(&["integration_points"]),
     ],
     rules: &[],
 };

@@ -83,7 +83,7 @@ pub(super) static SET: Table = Table {
         key("nodes", Shape::List(&ID, 1, MANY), "numbers of nodes").hints(&["node"]),
         key("elements", Shape::List(&ID, 1, MANY), "numbers of elements").hints(&["element", "cells"]),
         key("faces", Shape::List(&Shape::Row("[element, side]", &[ID, Shape::Text]), 1, MANY),
-            "rows [element, side]: side \"S1\", \"S2\", … as in Abaqus, or \"+z\", \"-x\", … by its normal").hints(&["face"]),
+            "rows [element, side]: side \"S1\", \"S2\", … as in Abaqus, or \"+z\", \"-x\", … by its normal; of shells S1 is the negative side, S2 the positive one, S3, S4, … the edges").hints(&["face"]),
         key("union", Shape::List(&Shape::Text, 1, MANY), "names of sets or groups"),
         key("plane", LINE, "what lies in a plane: \"x\", \"y\", \"z\" or a vector normal to it"),
         key("at", ANY, "distance of the plane from the origin, along its normal"),
@@ -213,7 +213,7 @@ pub(super) static INITIAL: Table = Table {
 
 pub(super) static THICKNESS: Table = Table {
     heading: "[[thickness]]",
-    doc: "thickness at nodes, of plane bodies with thickness = \"field\"; of several that name a node the last holds",
+    doc: "thickness at nodes, of plane bodies and shells with thickness = \"field\"; of several that name a node the last holds",
     keys: &[
         key("on", Shape::Text, "the set or group")
             .required()
@@ -257,6 +257,11 @@ static INITIAL_AT: Table = Table {
             .required()
             .hints(&["set", "group"]),
         key("temperature", ANY, "the temperature at the start").required(),
+        key(
+            "gradient",
+            ANY,
+            "of shells: change of temperature per length along their normal; `temperature` is that of the middle surface",
+        ),
     ],
     rules: &[],
 };

@@ -261,7 +261,7 @@ pub(super) static FIX: Table = Table {
         key(
             "rot",
             DIRECTIONS,
-            "rotations held, of a reference or rigid body",
+            "rotations held, of a reference, rigid body or shell nodes",
         )
         .hints(&["rotation", "r"]),
     ],
@@ -282,7 +282,7 @@ pub(super) static FREE_TABLE: Table = Table {
         key(
             "rot",
             DIRECTIONS,
-            "rotations set free, of a reference or rigid body",
+            "rotations set free, of a reference, rigid body or shell nodes",
         )
         .hints(&["rotation", "r"]),
         key(
@@ -493,6 +493,11 @@ static TEMPERATURE: Table = Table {
             "the temperature at the end of the step; its course, in heat and coupled steps",
         )
         .required(),
+        key(
+            "gradient",
+            ANY,
+            "of shells: change of temperature per length along their normal, with the course of `value`, which is that of the middle surface",
+        ),
     ],
     rules: &[],
 };

@@ -379,6 +379,7 @@ impl Translation {
                 locking: Spanned::from(self.locking(&group)),
                 orientation: None,
                 space: None,
+                shell: None,
                 thickness,
                 temperatures: Temperatures::Full,
                 at_nodes: AtNodes::Linear,

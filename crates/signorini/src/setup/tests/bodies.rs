@@ -53,6 +53,19 @@ fn bodies_are_solids_bars_or_rigid_with_what_they_are_made_of() {
 }
 
 #[test]
+fn shells_are_refused_where_they_stand() {
+    let sheet = "[mesh]\nnodes = [[1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0]]\n\
+        elements = [{ id = 1, type = 'quad4', group = 'sheet', nodes = [1, 2, 3, 4] }]\n\
+        [material.m]\nmodel = 'linear-elastic'\nE = 1\nnu = 0\n\
+        [[body]]\ngroup = 'sheet'\nmaterial = 'm'\nshell = { thickness = 0.1 }\n[[step]]\nname = 's'\n";
+    let (case, _) = read_case("case.toml", sheet.as_bytes(), &[], crate::vocabulary()).unwrap();
+    let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
+    let all = build(case, mesh).err().unwrap();
+    assert_eq!(all.len(), 1, "{all}");
+    assert_eq!(all.iter().next().unwrap().code.id, "S0111");
+}
+
+#[test]
 fn bodies_start_without_thermal_strain_unless_the_case_says_otherwise() {
     let heated = format!("{STEP}[[step.temperature]]\non = 'base'\nvalue = 120\n");
     let text = format!("{CUBES}{BASE}{heated}");
