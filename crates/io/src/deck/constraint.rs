@@ -149,8 +149,13 @@ impl Translation<'_> {
                 self.carriers.insert(turning, Carrier { name, turns: true });
             }
             if let Some(elset) = card.get("ELSET") {
-                if let Some(group) = self.set(card, elset, &card.place, Kind::Elements) {
-                    self.rigid_body(group, reference, &card.place);
+                let Some(group) = self.set(card, elset, &card.place, Kind::Elements) else {
+                    continue;
+                };
+                // shells keep their faces: their nodes move as a whole
+                match self.is_rigid_shell(card, &group) {
+                    true => self.moves_as_a_whole(group, reference, &card.place),
+                    false => self.rigid_body(group, reference, &card.place),
                 }
                 continue;
             }
@@ -158,15 +163,20 @@ impl Translation<'_> {
                 continue;
             };
             if let Some(on) = self.set(card, nset, &card.place, Kind::Nodes) {
-                let kind = ConstraintKind::Kinematic {
-                    on,
-                    reference,
-                    axes: Directions::ALL,
-                    local: None,
-                };
-                self.constrain(kind, &card.place);
+                self.moves_as_a_whole(on, reference, &card.place);
             }
         }
+    }
+
+    /// Nodes that move with a reference, in all directions.
+    fn moves_as_a_whole(&mut self, on: Name, reference: Name, place: &Place) {
+        let kind = ConstraintKind::Kinematic {
+            on,
+            reference,
+            axes: Directions::ALL,
+            local: None,
+        };
+        self.constrain(kind, place);
     }
 
     /// The reference of a *RIGID BODY: in its REF NODE, or in the mean of its nodes, which nothing but them then moves.
@@ -496,6 +506,11 @@ impl Translation<'_> {
             let [Some(on), Some(with)] = sides else {
                 continue;
             };
+            if self.has_shell_nodes(&[on.value.clone(), with.value.clone()].map(Target::Set)) {
+                let text = "*CYCLIC SYMMETRY MODEL of shells is not supported";
+                let remark = "their rotations would not follow from one side to the other";
+                self.error(&codes::NOT_BUILT, text, &card.place, remark);
+            }
             let kind = ConstraintKind::Cyclic {
                 on,
                 with,
@@ -598,7 +613,7 @@ impl Translation<'_> {
             (1..=3, _) | (4..=6, Some(_)) => component - 1,
             _ => {
                 let text = format!("*EQUATION of degree of freedom {component} is not supported");
-                let remark = "1 to 3; 4 to 6 of a node that moves a rigid body or a coupling";
+                let remark = "1 to 3; 4 to 6 of a node that moves a rigid body or a coupling, not of a shell";
                 self.error(&codes::NOT_BUILT, text, &place, remark);
                 return Vec::new();
             }

@@ -187,9 +187,8 @@ impl Translation<'_> {
             Some(set) if set.is_bare() => &set.nodes,
             _ => return surface,
         };
-        let outer = self
-            .outer
-            .get_or_insert_with(|| boundary(mesh, mesh.cells(mesh.dim())));
+        let solids = self.solids();
+        let outer = self.outer.get_or_insert_with(|| boundary(mesh, solids));
         let mut sides = Vec::new();
         let mut met = vec![false; nodes.len()];
         for face in outer.iter() {
@@ -330,7 +329,8 @@ impl Translation<'_> {
     /// Whether nodes belong to no element.
     fn are_bare(&self, nodes: &[NodeId]) -> bool {
         let mesh = &self.deck.mesh;
-        let mut cells = mesh.cells(mesh.dim());
+        let shells = self.deck.directory.shells().iter().copied();
+        let mut cells = mesh.cells(mesh.dim()).chain(shells);
         !cells.any(|cell| mesh.cell(cell).iter().any(|node| nodes.contains(node)))
     }
 
@@ -414,7 +414,7 @@ impl Translation<'_> {
     fn corners(&mut self, surface: Name, card: &Statement) -> Name {
         let mesh = &self.deck.mesh;
         let set = mesh.sets.get(&surface.value);
-        let Some(set) = set.filter(|_| mesh.dim() == 2) else {
+        let Some(set) = set.filter(|_| self.ndim() == 2 && mesh.dim() == 2) else {
             return surface;
         };
         let sides = set.faces.iter().filter_map(|face| mesh.face(*face));
@@ -462,6 +462,11 @@ impl Translation<'_> {
                 let ends = along.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
                 ends.1 - ends.0
             };
+            if self.deck.directory.is_shell(cell) {
+                let mut extents = [0, 1, 2].map(extent);
+                extents.sort_by(|a, b| b.total_cmp(a));
+                return Some((extents[0] * extents[1]).sqrt());
+            }
             let ndim = mesh.dim();
             let product: f64 = (0..ndim).map(extent).product();
             Some(product.powf(1.0 / ndim as f64))

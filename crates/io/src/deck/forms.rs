@@ -76,7 +76,7 @@ fn form(card: &Statement) -> Option<Form> {
         ),
         "DSLOAD" => each(some, (3, 3), "surface, P, pressure"),
         "TEMPERATURE" if card.peek("FILE").is_some() => return None,
-        "TEMPERATURE" => each(some, (2, 2), "node or set, temperature"),
+        "TEMPERATURE" => each(some, (2, 3), "node or set, temperature, gradient of shells"),
         "CHANGEFRICTION"
         | "CHANGESOLIDSECTION"
         | "CHANGESURFACEBEHAVIOR"
@@ -116,6 +116,8 @@ fn form(card: &Statement) -> Option<Form> {
         "NODALTHICKNESS" => each(SOME, (2, 3), "node or set, thickness"),
         "ORIENTATION" => each((1, 2), (1, 6), "two points of three coordinates"),
         "PRE-TENSIONSECTION" => each(AT_MOST_ONE, (0, 3), "a direction of three components"),
+        "SHELLSECTION" if card.peek("COMPOSITE").is_some() => return None,
+        "SHELLSECTION" => each(AT_MOST_ONE, (0, 2), "a thickness, integration points"),
         "SOLIDSECTION" => each(AT_MOST_ONE, (0, 1), "a thickness or a cross-section"),
         "SURFACEINTERACTION" => each(AT_MOST_ONE, (0, 1), "a thickness"),
         "CFLUX" => each(some, (3, 3), "node or set, 11, heat per time"),
@@ -137,7 +139,9 @@ fn form(card: &Statement) -> Option<Form> {
         ),
         "FREQUENCY" => each(ONE, (1, 3), "number of frequencies, lowest, highest"),
         "INITIALCONDITIONS" => match card.peek("TYPE").map(compared).as_deref() {
-            Some("TEMPERATURE") => each(SOME, (2, 2), "node or set, temperature"),
+            Some("TEMPERATURE") => {
+                each(SOME, (2, 3), "node or set, temperature, gradient of shells")
+            }
             Some("VELOCITY") => each(SOME, (3, 3), "node or set, component, velocity"),
             Some("STRESS" | "PLASTICSTRAIN") if card.peek("USER").is_none() => {
                 each(SOME, (3, 8), "element, integration point, six components")

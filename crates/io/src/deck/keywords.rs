@@ -57,7 +57,7 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("BEAM SECTION", "beams are not built yet"),
     read(
         "BOUNDARY",
-        "displacements, rotations of rigid bodies, temperatures; AMPLITUDE, OP, FIXED, SUBMODEL",
+        "displacements, rotations of rigid bodies, those of shells held, temperatures; AMPLITUDE, OP, FIXED, SUBMODEL",
     ),
     read("CFLUX", "heat at nodes; AMPLITUDE, OP"),
     read("CHANGE FRICTION", "with FRICTION"),
@@ -66,7 +66,7 @@ pub const KEYWORDS: &[Keyword] = &[
     read("CLEARANCE", "MASTER, SLAVE, VALUE"),
     read(
         "CLOAD",
-        "forces at nodes, moments at rigid bodies; AMPLITUDE, TIME DELAY, OP",
+        "forces at nodes, moments at rigid bodies and shells; AMPLITUDE, TIME DELAY, OP",
     ),
     read(
         "COHESIVE BEHAVIOR",
@@ -142,7 +142,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read(
         "DLOAD",
-        "P and P1 to P6, GRAV, CENTRIF; of MASS elements GRAV; AMPLITUDE, OP",
+        "P and P1 to P6, EDNOR1 to EDNOR4 of shells, GRAV, CENTRIF; of MASS elements GRAV; AMPLITUDE, OP",
     ),
     read("DSFLUX", "S; AMPLITUDE, OP"),
     read("DSLOAD", "P; AMPLITUDE, OP"),
@@ -159,7 +159,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("ELECTRICAL CONDUCTIVITY", "only of currents"),
     read(
         "ELEMENT",
-        "solids in space and in the plane; MASS, ROTARYI, springs",
+        "solids in space and in the plane; shells; MASS, ROTARYI, springs",
     ),
     ignored("ELEMENT OUTPUT", "all fields are written anyway"),
     read("ELSET", "GENERATE"),
@@ -215,7 +215,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read(
         "INITIAL CONDITIONS",
-        "TYPE=TEMPERATURE, one for all nodes; VELOCITY; STRESS and PLASTIC STRAIN at integration points",
+        "TYPE=TEMPERATURE, with gradients of shells; VELOCITY; STRESS and PLASTIC STRAIN at integration points",
     ),
     read("INSTANCE", "moved and turned"),
     read("KINEMATIC", "with COUPLING"),
@@ -231,11 +231,15 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     ignored("MONITOR", "every increment is told of"),
     read("MPC", "PLANE, STRAIGHT, BEAM, MEANROT, DIST"),
-    read("NODAL THICKNESS", "of plane sections that ask for it"),
+    read(
+        "NODAL THICKNESS",
+        "of sections of planes and shells that ask for it",
+    ),
     read("NODE", "SYSTEM"),
     ignored("NODE FILE", "all fields are written anyway"),
     ignored("NODE OUTPUT", "all fields are written anyway"),
     read("NODE PRINT", "U, RF, NT, RFL; TOTALS, FREQUENCY"),
+    refused("NORMAL", "normals of shells follow from their elements"),
     read("NSET", "GENERATE, ELSET"),
     read(
         "ORIENTATION",
@@ -279,7 +283,18 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("SECTION FILE", "all fields are written anyway"),
     read("SECTION PRINT", "SURFACE; SOF, SOM, SOAREA"),
     read("SFILM", "F; FILM AMPLITUDE, OP"),
-    refused("SHELL SECTION", "shells are not built yet"),
+    refused(
+        "SHELL GENERAL SECTION",
+        "write *SHELL SECTION with a material",
+    ),
+    read(
+        "SHELL SECTION",
+        "ELSET, MATERIAL, thickness, OFFSET, NODAL THICKNESS; of S3, S4, S6, S8",
+    ),
+    refused(
+        "SHELL TO SOLID COUPLING",
+        "shells are hinged at nodes that they share with solids",
+    ),
     read(
         "SOLID SECTION",
         "ELSET, MATERIAL, ORIENTATION, thickness in the plane, cross-section of trusses",
@@ -297,7 +312,10 @@ pub const KEYWORDS: &[Keyword] = &[
         "SUBMODEL",
         "TYPE=NODE; displacements of a .frd file, by BOUNDARY, SUBMODEL",
     ),
-    read("SURFACE", "TYPE=ELEMENT, NODE"),
+    read(
+        "SURFACE",
+        "TYPE=ELEMENT, NODE; SNEG and SPOS of shells, their edges from S3 on",
+    ),
     read(
         "SURFACE BEHAVIOR",
         "HARD, LINEAR, EXPONENTIAL, TABULAR, TIED",
@@ -307,7 +325,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "SURFACE PROPERTY ASSIGNMENT",
         "faces are where their nodes are, without a thickness of their own",
     ),
-    read("TEMPERATURE", "of node sets"),
+    read("TEMPERATURE", "of node sets, with gradients of shells"),
     read("TIE", "POSITION TOLERANCE, ADJUST; CYCLIC SYMMETRY"),
     ignored("TIME POINTS", "results are written after every increment"),
     read("TRANSFORM", "TYPE=R, C"),

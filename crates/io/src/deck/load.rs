@@ -20,6 +20,7 @@ enum Acts {
     Flux,
     Film,
     Radiation,
+    Line,
 }
 
 impl Acts {
@@ -41,7 +42,7 @@ impl Acts {
     /// The letter of its labels.
     const fn letter(self) -> char {
         match self {
-            Self::Pressure => 'P',
+            Self::Pressure | Self::Line => 'P',
             Self::Flux => 'S',
             Self::Film => 'F',
             Self::Radiation => 'R',
@@ -52,6 +53,7 @@ impl Acts {
     fn kind(self, [first, second]: [f64; 2]) -> Chosen {
         match self {
             Self::Pressure => Chosen::bare("pressure", Value::Number(first)),
+            Self::Line => Chosen::bare("line", Value::Number(first)),
             Self::Flux => Chosen::bare("heat_flux", Value::Number(first)),
             Self::Film => Chosen::new("film", [("h", second), ("sink", first)]),
             Self::Radiation => Chosen::new("radiation", [("emissivity", second), ("sink", first)]),
@@ -62,7 +64,7 @@ impl Acts {
 /// Where something acts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Where {
-    /// Along a degree of freedom of a node.
+    /// Along a degree of freedom of a node, or about an axis from 3 on.
     Node(u64, usize),
     /// Heat at a node.
     Heated(u64),
@@ -136,6 +138,7 @@ impl Where {
         match self {
             Self::Node(..) | Self::Reference(..) => keyword == "CLOAD",
             Self::Heated(_) => keyword == "CFLUX",
+            Self::Side(Acts::Line, ..) => keyword == "DLOAD",
             Self::Side(acts, ..) => Acts::of(keyword) == Some((*acts, false)),
             Self::Surface(acts, _) => Acts::of(keyword) == Some((*acts, true)),
             Self::Source(_) => keyword == "DFLUX",
@@ -312,6 +315,13 @@ impl Translation<'_> {
                     self::vector("force", vector)
                 };
                 all.push((Where::Reference(carrier.name.clone(), turns, axis), kind));
+            } else if dof > 3 && self.shell_nodes.contains(&label) {
+                let direction = match self.axes.get(&label) {
+                    Some(axes) => global(axes, axis, value),
+                    None => unit(axis) * value,
+                };
+                let kind = vector("moment", direction.to_array());
+                all.push((Where::Node(label, dof - 1), kind));
             } else if dof > 3 && self.has_structures {
                 // their sections are refused
                 break;
@@ -321,7 +331,7 @@ impl Translation<'_> {
                     &codes::WRONG_KIND,
                     text,
                     &place,
-                    "name the node of a rigid body",
+                    "name the node of a rigid body or a shell",
                 );
                 break;
             } else {
@@ -405,28 +415,55 @@ impl Translation<'_> {
                 let name = "centrifugal";
                 on_mass(Chosen { name, values })
             }
-            pressure => {
-                let side = pressure
-                    .strip_prefix('P')
-                    .and_then(|side| side.parse::<u8>().ok());
-                let Some(side) = side.filter(|side| *side > 0) else {
-                    if self.has_structures {
-                        return Vec::new();
-                    }
-                    let text = format!("*DLOAD has no load `{label}` here");
-                    let remark = match label.ends_with("NU") || label.ends_with("NP") {
-                        true => "pressures of users' routines are not built",
-                        false => "P1 to P6, GRAV and CENTRIF are read",
-                    };
-                    self.error(&codes::NOT_BUILT, text, &place, remark);
-                    return Vec::new();
-                };
-                let elements = targets.iter().flat_map(|target| self.elements(target));
-                let kind = Acts::Pressure.kind([value, 0.0]);
-                let at = |element| (Where::Side(Acts::Pressure, element, side), kind.clone());
-                elements.map(at).collect()
-            }
+            _ => self.on_sides(&targets, (&label, value), &place),
         }
+    }
+
+    /// A load of *DLOAD on sides of elements: a pressure, or a force along the edge of a shell. P of a shell pushes along its
+    /// normal.
+    fn on_sides(
+        &mut self,
+        targets: &[Target],
+        (label, value): (&str, f64),
+        place: &Place,
+    ) -> Vec<(Where, Chosen)> {
+        let number = |text: &str| text.parse::<u8>().ok().filter(|side| *side > 0);
+        let (pressure, edge) = (label.strip_prefix('P'), label.strip_prefix("EDNOR"));
+        let side = pressure.and_then(number);
+        let edge = edge.and_then(number).filter(|edge| *edge <= 4);
+        let mut all = Vec::new();
+        let mut strange = None;
+        for element in targets.iter().flat_map(|target| self.elements(target)) {
+            let at = match (self.is_shell(element), side, edge) {
+                (true, Some(_), _) => Some((Acts::Pressure, 1)),
+                (true, None, _) if pressure == Some("") => Some((Acts::Pressure, 1)),
+                (true, _, Some(edge)) => Some((Acts::Line, edge + 2)),
+                (false, Some(side), _) => Some((Acts::Pressure, side)),
+                _ => None,
+            };
+            let Some((acts, side)) = at else {
+                strange = Some(element);
+                break;
+            };
+            all.push((Where::Side(acts, element, side), acts.kind([value, 0.0])));
+        }
+        let is_known = side.is_some() || edge.is_some() || pressure == Some("");
+        if strange.is_none() && is_known || self.has_structures {
+            return all;
+        }
+        let text = match strange.filter(|_| is_known && !self.shell_nodes.is_empty()) {
+            Some(element) => {
+                format!("*DLOAD: {label} does not act on element {element}, which is no shell")
+            }
+            None => format!("*DLOAD has no load `{label}` here"),
+        };
+        let remark = match label.ends_with("NU") || label.ends_with("NP") {
+            true => "pressures of users' routines are not built",
+            false if self.shell_nodes.is_empty() => "P1 to P6, GRAV and CENTRIF are read",
+            false => "P, EDNOR1 to EDNOR4 of shells, P1 to P6 of solids, GRAV and CENTRIF are read",
+        };
+        self.error(&codes::NOT_BUILT, text, place, remark);
+        Vec::new()
     }
 
     /// Writes what has changed since the step before into a step.

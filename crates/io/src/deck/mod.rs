@@ -5,6 +5,7 @@
 //!                                  material    materials
 //!                                  forms       how many values and lines cards have
 //!                                  sections    elements that have none, or one that is not theirs
+//!                                  shell       sections of shells, and what of them is refused
 //!                                  model       sections, amplitudes, initial conditions
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  mass        masses at nodes and of references, and their weight
@@ -52,6 +53,7 @@ mod penetration;
 mod print;
 mod repeated;
 mod sections;
+mod shell;
 mod spring;
 mod step;
 mod submodel;

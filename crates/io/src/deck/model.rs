@@ -8,14 +8,14 @@ use crate::case::{
     Unstrained,
 };
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
-use crate::readers::inp::{Field, Kind, Statement, compared, spelled};
+use crate::readers::inp::{Field, Kind, Statement, compared, spelled, without_volume};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Elements whose integration points are numbered as ours are.
 const POINTWISE: [&str; 5] = ["C3D4", "C3D8", "C3D8I", "C3D20", "C3D20R"];
 
-/// A *SOLID SECTION.
-struct Section<'s> {
+/// A section of elements.
+pub(super) struct Section<'s> {
     card: &'s Statement,
     material: &'s str,
     orientation: Option<&'s BodyAxes>,
@@ -24,9 +24,20 @@ struct Section<'s> {
     set: Option<String>,
 }
 
-impl Section<'_> {
+impl<'s> Section<'s> {
+    /// One that says nothing but its material.
+    pub const fn bare(card: &'s Statement, material: &'s str) -> Self {
+        Self {
+            card,
+            material,
+            orientation: None,
+            thickness: None,
+            set: None,
+        }
+    }
+
     /// A body of its material, everything else as it is by default.
-    fn made_of(&self, group: Name) -> Body {
+    pub fn made_of(&self, group: Name) -> Body {
         let place = &self.card.place;
         Body {
             groups: vec![group],
@@ -83,13 +94,30 @@ impl Translation<'_> {
         if dim == 2 && ["CPE", "CPS", "CAX"].into_iter().any(of) {
             self.judge_plane();
         }
+        let is_shell = |kind: &str| without_volume(kind) == Some("shell");
+        let of_shells = || used.iter().find(|(kind, _)| is_shell(kind));
         let space = match dim {
             0 | 3 => Space::ThreeD,
+            2 if of_shells().is_some() => Space::ThreeD,
             1 if !of("T2D") => Space::ThreeD,
             _ if of("CAX") || of("DCAX") => Space::Axisymmetric,
             _ if of("CPS") || of("DC2D") => Space::PlaneStress,
             _ => Space::PlaneStrain,
         };
+        let of_plane = |(kind, _): &&(&str, usize)| {
+            let families = ["CPE", "CPS", "CAX", "DC2D", "DCAX"];
+            families.iter().any(|family| kind.starts_with(family))
+        };
+        if let (2, Some((shell, _)), Some((plane, _))) =
+            (dim, of_shells(), used.iter().find(of_plane))
+        {
+            let text = format!(
+                "shells ({shell}) and elements of the plane ({plane}) in one deck are not supported"
+            );
+            let one = Diagnostic::error(&codes::NOT_BUILT, text);
+            let help = "mesh the parts of the plane with shells or solids, too";
+            self.found.push(one.help(help));
+        }
         if space == Space::Axisymmetric && of("CPE") {
             self.error(
                 &codes::CONTRADICTION,
@@ -163,11 +191,12 @@ impl Translation<'_> {
             for row in card.rows() {
                 let targets = self.targets(card, row.first(), Kind::Nodes);
                 let temperature = self.real(row.get(1));
+                let gradient = self.gradient(&row, &targets);
                 if !targets.is_empty() {
                     found.push(TemperatureAt {
                         on: self.named(&targets, &card.place),
                         temperature,
-                        gradient: None,
+                        gradient,
                         place: card.place.clone(),
                     });
                 }
@@ -177,13 +206,15 @@ impl Translation<'_> {
             return;
         };
         let alike = found.iter().all(|one| one.temperature == first.temperature);
+        let even = found.iter().all(|one| one.gradient.is_none());
         // what no line names is at zero once lines differ; CalculiX leaves it without a value
-        let (everywhere, free) = match alike {
-            true => (first.temperature, Unstrained::At(first.temperature)),
-            false => (0.0, Unstrained::AtStart),
+        let (everywhere, free) = match (alike, even) {
+            (true, true) => (first.temperature, Unstrained::At(first.temperature)),
+            (true, false) => (first.temperature, Unstrained::AtStart),
+            (false, _) => (0.0, Unstrained::AtStart),
         };
         self.case.initial_temperature = Some(Spanned::new(everywhere, first.place));
-        if !alike {
+        if !(alike && even) {
             self.case.initial_temperatures = found;
         }
         // thermal strain counts from the start, at which there is none
@@ -336,31 +367,15 @@ impl Translation<'_> {
     fn sections(&mut self) {
         let orientations = self.orientations();
         let mut thickness: Option<f64> = None;
-        let last = self.last_sections();
+        let last = self.last_sections("SOLIDSECTION");
         for (number, card) in self.cards("SOLIDSECTION").enumerate() {
             let (elset, material) = (self.need(card, "ELSET"), self.need(card, "MATERIAL"));
             let (Some(elset), Some(material)) = (elset, material) else {
                 continue;
             };
-            let Some(known) = self.materials.get(&compared(material)) else {
-                let text = format!("there is no material `{material}`");
-                self.error(&codes::UNDEFINED, text, &card.place, "");
+            let Some(material) = self.material_of(card, material) else {
                 continue;
             };
-            let material = known.name.value.clone();
-            if !known.has_law() && known.is_refused() {
-                continue;
-            }
-            let conducts_alone = known.heat.conducts() && self.is_all_heat();
-            if !known.has_law() && !conducts_alone {
-                let text = format!("material `{material}` has no elastic constants");
-                let one = Diagnostic::error(&codes::MISSING, text)
-                    .at(&card.place, "it is used here")
-                    .at(&known.name.place, "and defined here")
-                    .help("write *ELASTIC below *MATERIAL, with E and nu in the next line");
-                self.found.push(one);
-                continue;
-            }
             let orientation = card.get("ORIENTATION").map(compared);
             let orientation = orientation.and_then(|name| match orientations.get(&name) {
                 Some(found) => found.clone(),
@@ -427,16 +442,41 @@ impl Translation<'_> {
                 }
             }
         }
+        self.shells();
         for card in self.cards("MEMBRANE") {
             self.membrane(card);
         }
         self.nodal_thickness();
     }
 
-    /// The number of the last section of each element, if there are several.
-    fn last_sections(&self) -> HashMap<u64, usize> {
+    /// The name of the material of a section; nothing where it is none of a solid, which is reported.
+    pub fn material_of(&mut self, card: &Statement, material: &str) -> Option<String> {
+        let Some(known) = self.materials.get(&compared(material)) else {
+            let text = format!("there is no material `{material}`");
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+            return None;
+        };
+        let material = known.name.value.clone();
+        if !known.has_law() && known.is_refused() {
+            return None;
+        }
+        let conducts_alone = known.heat.conducts() && self.is_all_heat();
+        if !known.has_law() && !conducts_alone {
+            let text = format!("material `{material}` has no elastic constants");
+            let one = Diagnostic::error(&codes::MISSING, text)
+                .at(&card.place, "it is used here")
+                .at(&known.name.place, "and defined here")
+                .help("write *ELASTIC below *MATERIAL, with E and nu in the next line");
+            self.found.push(one);
+            return None;
+        }
+        Some(material)
+    }
+
+    /// The number of the last section of each element, if there are several of this keyword.
+    pub fn last_sections(&self, keyword: &'static str) -> HashMap<u64, usize> {
         let mut last = HashMap::new();
-        let cards: Vec<&Statement> = self.cards("SOLIDSECTION").collect();
+        let cards: Vec<&Statement> = self.cards(keyword).collect();
         if cards.len() < 2 {
             return last;
         }

@@ -11,23 +11,18 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 const FLAT: f64 = 1e-9;
 
 /// Elements that are not built.
-const STRUCTURES: [&str; 3] = ["shell", "membrane", "beam"];
+const STRUCTURES: [&str; 2] = ["membrane", "beam"];
 
 /// Whether some cards are sections of elements that are not built.
 pub(super) fn are_structures(cards: &[Statement]) -> bool {
-    let refused = [
-        "SHELLSECTION",
-        "BEAMSECTION",
-        "BEAMGENERALSECTION",
-        "MEMBRANESECTION",
-    ];
+    let refused = ["BEAMSECTION", "BEAMGENERALSECTION", "MEMBRANESECTION"];
     cards
         .iter()
         .any(|card| refused.contains(&card.keyword.as_str()))
 }
 
 impl Translation<'_> {
-    /// Refuses a deck all of whose elements are shells, beams or membranes: whatever else it says is about these.
+    /// Refuses a deck all of whose elements are beams or membranes: whatever else it says is about these.
     pub fn has_only_structures(&mut self) -> bool {
         let used = self.used_types();
         let word = |kind: &str| without_volume(kind).filter(|word| STRUCTURES.contains(word));
@@ -103,7 +98,11 @@ impl Translation<'_> {
                 _ => format!("{count} elements{of_set} have no section, such as {label}"),
             };
             let shown = of.map_or("…", String::as_str);
-            let help = format!("write *SOLID SECTION, ELSET={shown}, MATERIAL=…");
+            let kind = match without_volume(self.type_of(cell)) {
+                Some("shell") => "SHELL",
+                _ => "SOLID",
+            };
+            let help = format!("write *{kind} SECTION, ELSET={shown}, MATERIAL=…");
             let one = Diagnostic::error(&codes::MISSING, text);
             let one = one.at(&card.place, "no material is given to what is defined here");
             self.found.push(one.help(help));
@@ -139,7 +138,8 @@ impl Translation<'_> {
             "in the plane" => {
                 "elements of the plane next to solids are faces of these: give them no section"
             }
-            _ => "shells, membranes and beams are not built: use solids, such as C3D8, or leave the section out",
+            "shell" => "shells take *SHELL SECTION; next to solids, faces of these take no section",
+            _ => "membranes and beams are not built: use solids, such as C3D8, or leave the section out",
         }));
         false
     }
@@ -182,13 +182,14 @@ impl Translation<'_> {
         }
     }
 
-    /// The nodes of plane sections that ask for the thickness at nodes.
+    /// The nodes of sections of planes and shells that ask for the thickness at nodes.
     fn nodes_that_ask(&mut self) -> HashSet<u64> {
         let mut asking = HashSet::new();
-        if self.case.model.space.value.ndim() != 2 {
-            return asking;
-        }
-        for card in self.cards("SOLIDSECTION") {
+        let sections = match self.ndim() {
+            2 => "SOLIDSECTION",
+            _ => "SHELLSECTION",
+        };
+        for card in self.cards(sections) {
             let asks = card.peek("NODALTHICKNESS").is_some();
             let Some(elset) = card.peek("ELSET").filter(|_| asks) else {
                 continue;

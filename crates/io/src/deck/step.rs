@@ -527,6 +527,7 @@ impl Translation<'_> {
             let labels = turned.iter().flat_map(|target| self.labels(target));
             let (labels, others): (Vec<u64>, Vec<u64>) =
                 labels.partition(|label| self.axes.contains_key(label));
+            self.no_local_rotations(&labels, &line);
             for label in labels {
                 let of_node = local.entry(label).or_default();
                 for &component in line.components.iter().filter(|c| **c < 3) {
@@ -541,12 +542,30 @@ impl Translation<'_> {
             for carrier in carriers {
                 self.set_course(&[carrier], &line, number, sudden, standing, step);
             }
-            if !nodes.is_empty() {
-                self.set_course(&nodes, &line, number, sudden, standing, step);
+            let turns = line.components.iter().any(|component| *component >= 3);
+            let parts = match turns && self.has_shell_nodes(&nodes) {
+                true => self.shells_apart(nodes),
+                false => [Vec::new(), nodes],
+            };
+            for nodes in parts.iter().filter(|nodes| !nodes.is_empty()) {
+                self.set_course(nodes, &line, number, sudden, standing, step);
             }
         }
         for (label, components) in local {
             self.set_local(label, components, sudden, standing, step);
+        }
+    }
+
+    /// Refuses rotations about local axes at nodes of shells.
+    fn no_local_rotations(&mut self, labels: &[u64], line: &Line) {
+        let turns = line.components.iter().any(|component| *component >= 3);
+        let of_shell = |label: &&u64| self.shell_nodes.contains(label);
+        if let Some(label) = labels.iter().find(of_shell).filter(|_| turns) {
+            let text = format!(
+                "rotations of node {label}, of a shell, along local axes are not supported"
+            );
+            let remark = "leave the node out of *TRANSFORM";
+            self.error(&codes::NOT_BUILT, text, &line.place, remark);
         }
     }
 
@@ -562,8 +581,9 @@ impl Translation<'_> {
     ) {
         let ndim = self.ndim();
         let (on, components) = self.carried(targets, &line.components, &line.place);
-        // nodes have no rotations; in a plane model nothing leaves the plane
-        let turns = self.carrier_of(targets).is_some();
+        // nodes of solids have no rotations; in a plane model nothing leaves the plane
+        let is_carried = self.carrier_of(targets).is_some();
+        let turns = is_carried || self.has_shell_nodes(targets);
         let is_there = |c: &usize| *c < ndim || turns && *c >= if ndim == 3 { 3 } else { 5 };
         let components: Vec<usize> = components.iter().copied().filter(is_there).collect();
         if components.is_empty() {
@@ -584,6 +604,12 @@ impl Translation<'_> {
         for key in keys() {
             let moved = standing.held.entry(key).or_default();
             *moved |= !stays;
+        }
+        if !stays && !is_carried && components.iter().any(|component| *component >= 3) {
+            let text = "rotations of shells can be held, not yet moved";
+            let remark = "zero is; or turn the node of a rigid body or coupling that holds them";
+            self.error(&codes::NOT_BUILT, text, &line.place, remark);
+            return;
         }
         if stays {
             let (u, rot) = directions(&components);

@@ -111,6 +111,7 @@ impl Translation<'_> {
         for row in card.rows() {
             let targets = self.targets(card, row.first(), Kind::Nodes);
             let value = self.real(row.get(1));
+            let gradient = self.gradient(&row, &targets);
             if targets.is_empty() {
                 continue;
             }
@@ -119,7 +120,7 @@ impl Translation<'_> {
             step.temperatures.push(Temperature {
                 on,
                 value: Motion::Ramp(value),
-                gradient: None,
+                gradient: gradient.map(|gradient| Spanned::new(gradient, card.place.clone())),
                 place: card.place.clone(),
             });
         }

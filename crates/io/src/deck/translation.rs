@@ -4,7 +4,7 @@ use super::compat::Compat;
 use super::keywords::{Keyword, Support};
 use super::names::Names;
 use super::repeated::Repeated;
-use super::{constraint, contact, heat, material, sections, submodel};
+use super::{constraint, contact, heat, material, sections, shell, submodel};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
@@ -14,7 +14,7 @@ use crate::readers::inp::{
 use crate::readers::labels::Lookup;
 use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// What a line of a card is about: a set of the mesh, or a single node or element by its number in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,6 +54,8 @@ pub(super) struct Translation<'d> {
     names: Names,
     /// Sets of nodes of the case, by the numbers in them.
     sets: BTreeMap<Vec<u64>, String>,
+    /// The numbers of the nodes of shells.
+    pub shell_nodes: HashSet<u64>,
     /// The outer faces of the mesh, once somebody asks.
     pub outer: Option<Vec<Face>>,
     /// Sets of faces that stand for surfaces of nodes.
@@ -110,7 +112,9 @@ impl<'d> Translation<'d> {
         };
         let trusses = mesh.cells(1).filter(is_truss);
         let trusses = trusses.filter(|_| mesh.dim() > 1);
-        let cells: Vec<CellId> = mesh.cells(mesh.dim()).chain(trusses).collect();
+        let shells = deck.directory.shells().iter().copied();
+        let shells = shells.filter(|_| mesh.dim() > 2);
+        let cells: Vec<CellId> = (mesh.cells(mesh.dim()).chain(shells).chain(trusses)).collect();
         let label = |cell: &CellId| mesh.cell_label(*cell).unwrap_or(0);
         let labels: Vec<u64> = cells.iter().map(label).collect();
         Self {
@@ -133,6 +137,7 @@ impl<'d> Translation<'d> {
             cells,
             names: Names::new(mesh.sets.keys().cloned()),
             sets: BTreeMap::new(),
+            shell_nodes: shell::nodes_of_shells(deck),
             outer: None,
             faced: BTreeMap::new(),
         }
@@ -422,7 +427,10 @@ impl<'d> Translation<'d> {
             Target::One(label) => vec![*label],
             Target::Set(name) => {
                 let mesh = &self.deck.mesh;
-                let nodes = mesh.sets.get(name).map(|set| mesh.nodes_of(set));
+                let nodes = mesh
+                    .sets
+                    .get(name)
+                    .map(|set| shell::nodes_of(self.deck, set));
                 let nodes = nodes.unwrap_or_default().into_iter();
                 nodes
                     .filter_map(|node| mesh.node_labels.get(node as usize).copied())
@@ -479,6 +487,15 @@ impl<'d> Translation<'d> {
         }
         let all = names.iter().map(String::as_str).zip(counts);
         all.filter(|(_, count)| *count > 0).collect()
+    }
+
+    /// The cells that have faces: of the highest dimension, and solids only next to shells.
+    pub fn solids(&self) -> impl Iterator<Item = CellId> + use<'d> {
+        let mesh = &self.deck.mesh;
+        match self.shell_nodes.is_empty() {
+            true => mesh.cells(mesh.dim()),
+            false => mesh.cells(3),
+        }
     }
 
     pub fn ndim(&self) -> usize {

@@ -35,7 +35,7 @@ pub use fortran::LineError;
 pub use inline::{InlineElement, build};
 pub use side::{SideError, side_by_normal};
 pub use signorini_geometry::mesh::quality::parts;
-pub use validate::{MeshIssue, Sample, Severity, validate};
+pub use validate::{MeshIssue, Sample, Severity, validate, validate_as};
 
 use signorini_geometry::mesh::Mesh;
 

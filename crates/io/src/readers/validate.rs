@@ -213,6 +213,13 @@ impl MeshIssue {
 /// ```
 #[must_use]
 pub fn validate(mesh: &Mesh) -> Vec<MeshIssue> {
+    validate_as(mesh, quality::is_plane(mesh))
+}
+
+/// The same for a mesh whose cells are those of a plane, where areas have a sign, or not: shells may have all their nodes in one
+/// plane, with normals to both sides.
+#[must_use]
+pub fn validate_as(mesh: &Mesh, plane: bool) -> Vec<MeshIssue> {
     let mut issues = Vec::new();
     let usable = coordinates(mesh, &mut issues);
     repeated_nodes(mesh, &mut issues);
@@ -220,7 +227,7 @@ pub fn validate(mesh: &Mesh) -> Vec<MeshIssue> {
     // the three that take their time have nothing to do with each other
     let [of_volumes, of_pairs, coincident] = thread::scope(|scope| {
         let volumes = scope.spawn(|| match usable {
-            true => volumes(mesh),
+            true => volumes(mesh, plane),
             false => Vec::new(),
         });
         let coincident = scope.spawn(|| {
@@ -330,10 +337,9 @@ fn judge(jacobian: &Jacobian, x: &mut [Vec3]) -> Volume {
     }
 }
 
-fn volumes(mesh: &Mesh) -> Vec<MeshIssue> {
+fn volumes(mesh: &Mesh, plane: bool) -> Vec<MeshIssue> {
     let mut issues = Vec::new();
     let dim = mesh.dim();
-    let plane = quality::is_plane(mesh);
     let [mut flat, mut folded, mut inverted] = [const {
         Sample {
             count: 0,

@@ -103,7 +103,11 @@ pub fn judge_mesh_of(case: &Case, mesh: &Mesh) -> Result<Diagnostics, Diagnostic
         MeshSource::Inline { place, .. } => place,
     };
     let mut found = Diagnostics::new();
-    for issue in readers::validate(mesh) {
+    let issues = match case.bodies.iter().any(|body| body.shell.is_some()) {
+        true => readers::validate_as(mesh, false),
+        false => readers::validate(mesh),
+    };
+    for issue in issues {
         let mut one = judged(&issue, place).about_elements(issue.elements());
         let element = issue.elements().first();
         if let Some((element, body)) = element.and_then(|e| Some((e, body_of(*e, case, mesh)?))) {

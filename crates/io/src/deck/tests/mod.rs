@@ -9,6 +9,7 @@ mod materials;
 mod motion;
 mod penetration;
 mod sections;
+mod shells;
 mod silent;
 mod steps;
 

@@ -271,8 +271,8 @@ fn sections_of_what_is_no_solid_are_refused() {
     assert_refused(&[
         (
             plane.replace("CPE4", "S4"),
-            6,
-            "its element is no solid (S4): shells are not built yet",
+            0,
+            "element 1, which is no solid: S4 (shell)",
         ),
         (
             cube("C3D8", &format!("{skin}{STEP}")),
@@ -488,7 +488,7 @@ fn keywords_that_nobody_knows_are_refused_and_passed_over_as_calculix_does() {
 }
 
 #[test]
-fn decks_of_shells_or_beams_alone_are_refused_by_one_message() {
+fn decks_of_membranes_or_beams_alone_are_refused_by_one_message() {
     let deck = |kind: &str, nodes: &str, section: &str| {
         format!(
             "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT, TYPE={kind}, ELSET=E\n1,{nodes}\n\
@@ -498,12 +498,12 @@ fn decks_of_shells_or_beams_alone_are_refused_by_one_message() {
     };
     for (kind, nodes, section, words) in [
         (
-            "S4",
+            "M3D4",
             "1,2,3,4",
-            "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.1\n",
-            "(S4): shells are not built yet",
+            "*MEMBRANE SECTION, ELSET=E, MATERIAL=M\n0.1\n",
+            "(M3D4): membranes are not built yet",
         ),
-        ("S3", "1,2,3", "", "(S3): shells are not built yet"),
+        ("M3D3", "1,2,3", "", "(M3D3): membranes are not built yet"),
         (
             "B31",
             "1,2",
@@ -516,8 +516,8 @@ fn decks_of_shells_or_beams_alone_are_refused_by_one_message() {
         assert!(found.plain().contains(words), "{}", found.plain());
     }
     // next to solids the section alone is refused, and no load on its elements
-    let mixed = "*NODE\n9,3,0,0\n10,4,0,0\n11,4,1,0\n12,3,1,0\n*ELEMENT, TYPE=S4, ELSET=SH\n9,9,10,11,12\n\
-                 *SHELL SECTION, ELSET=SH, MATERIAL=M\n0.1\n";
+    let mixed = "*NODE\n9,3,0,0\n10,4,0,0\n11,4,1,0\n12,3,1,0\n*ELEMENT, TYPE=M3D4, ELSET=SH\n9,9,10,11,12\n\
+                 *MEMBRANE SECTION, ELSET=SH, MATERIAL=M\n0.1\n";
     let step = STEP.replace("TOP, 3, 1.", "9, 5, 1.\n*DLOAD\nSH, P, 1.");
     let found = translated(&cube("C3D8", &format!("{mixed}{step}")), Compat::None).unwrap_err();
     assert_eq!(found.len(), 1, "{}", found.plain());

@@ -29,8 +29,12 @@ impl Family {
 pub(super) enum Side {
     /// `S1`, `S2`, …
     Number(u8),
-    /// `SPOS` or `SNEG`: a face of a shell.
-    Face,
+    /// `SPOS`: the positive face of a shell.
+    Positive,
+    /// `SNEG`: the negative face of a shell.
+    Negative,
+    /// `E1`, `E2`, …: an edge of a shell.
+    Edge(u8),
     /// Nothing: the sides that no other element has.
     Free,
 }
@@ -39,11 +43,19 @@ impl Side {
     pub fn parse(name: &str) -> Option<Self> {
         match name {
             "" => return Some(Self::Free),
-            "SPOS" | "SNEG" | "SP" | "SN" => return Some(Self::Face),
+            "SPOS" | "SP" => return Some(Self::Positive),
+            "SNEG" | "SN" => return Some(Self::Negative),
             _ => {}
         }
-        let number = name.strip_prefix('S')?;
-        number.parse().ok().filter(|&n| n > 0).map(Self::Number)
+        let number = |text: &str| {
+            text.parse()
+                .ok()
+                .filter(|&n| (1..=u8::MAX - 2).contains(&n))
+        };
+        match name.strip_prefix('E') {
+            Some(edge) => number(edge).map(Self::Edge),
+            None => number(name.strip_prefix('S')?).map(Self::Number),
+        }
     }
 }
 

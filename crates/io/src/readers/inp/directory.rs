@@ -91,6 +91,8 @@ pub struct Directory {
     pub(super) element_cards: Vec<ElementCard>,
     /// Elements that are no cells.
     pub(super) special: Vec<Special>,
+    /// The cells that are shells, in order.
+    pub(super) shells: Vec<CellId>,
 }
 
 /// The space of the instance and the rest of a name such as `part-1.top`.
@@ -176,6 +178,19 @@ impl Directory {
     #[must_use]
     pub fn types(&self) -> (&[String], &[Vec<u32>]) {
         (&self.type_names, &self.types)
+    }
+
+    /// The cells that are shells, in order: those of a *SHELL SECTION. Faces of them in sets have the numbers of their sides less
+    /// one: 0 for the negative side, 1 for the positive one, edges from 2 on.
+    #[must_use]
+    pub fn shells(&self) -> &[CellId] {
+        &self.shells
+    }
+
+    /// Whether a cell is a shell.
+    #[must_use]
+    pub fn is_shell(&self, cell: CellId) -> bool {
+        self.shells.binary_search(&cell).is_ok()
     }
 
     /// The elements that are no cells.

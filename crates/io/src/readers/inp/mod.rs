@@ -108,7 +108,7 @@ fn read_all(fs: &dyn Fs, name: &str, bytes: &[u8], whole: bool) -> Result<Deck, 
     let files = Files::open(fs, name, bytes)?;
     let mut cards = deck::read(&files, whole)?;
     let statements = std::mem::take(&mut cards.statements);
-    let assembled = assemble::assemble(&files, cards, whole)?;
+    let assembled = assemble::assemble(&files, cards, &statements, whole)?;
     Ok(Deck {
         mesh: assembled.mesh,
         notes: assembled.notes,

@@ -327,3 +327,22 @@ fn ten_elements_are_named_and_the_others_counted() {
     );
     assert_eq!(sample(&[4, 7]).to_string(), "4, 7");
 }
+
+#[test]
+fn areas_of_shells_in_one_plane_have_no_sign() {
+    let nodes: Vec<(u64, [f64; 3])> = (1..)
+        .zip([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .map(|(label, [x, y])| (label, [x, y, 0.0]))
+        .collect();
+    let turned = build(&nodes, &[(7, "quad4", None, &[1, 4, 3, 2])]).unwrap();
+    assert_eq!(validate(&turned), [MeshIssue::Mirrored { ncell: 1 }]);
+    assert_eq!(validate_as(&turned, false), []);
+    let line: Vec<(u64, [f64; 3])> = (1..=4).map(|n| (n, [n as f64, 0.0, 0.0])).collect();
+    let flat = build(&line, &[(7, "quad4", None, &[1, 2, 3, 4])]).unwrap();
+    assert_eq!(
+        validate_as(&flat, false),
+        [MeshIssue::Flat {
+            elements: sample(&[7])
+        }]
+    );
+}

@@ -3,6 +3,7 @@
 mod instance;
 mod names;
 mod sets;
+mod shells;
 mod space;
 
 use super::card::key;
@@ -11,6 +12,7 @@ use super::definition::Family;
 use super::directory::{Directory, Special};
 use super::kind::{Kind, Role};
 use super::lines::{Files, Spot};
+use super::statement::Statement;
 use crate::readers::MeshError;
 use crate::readers::labels::Lookup;
 use instance::{append, copy};
@@ -21,6 +23,12 @@ use std::collections::BTreeMap;
 use std::mem::take;
 
 type Result<T> = std::result::Result<T, MeshError>;
+
+/// Elements of a type, in a note.
+fn in_words(count: u64, name: &str) -> String {
+    let s = if count == 1 { "" } else { "s" };
+    format!("{count} element{s} of type {name}")
+}
 
 /// Sets, or copies of parts, may hold this many entries more than the deck has bytes, and twice as many.
 const ENTRIES: u64 = 1 << 20;
@@ -34,7 +42,12 @@ pub(super) struct Assembled {
 }
 
 /// Makes the mesh; of a `whole` deck, its cards say what springs and bars are.
-pub(super) fn assemble(files: &Files<'_>, deck: Deck, whole: bool) -> Result<Assembled> {
+pub(super) fn assemble(
+    files: &Files<'_>,
+    deck: Deck,
+    statements: &[Statement],
+    whole: bool,
+) -> Result<Assembled> {
     let nbyte = files.nbyte() as u64;
     let mut assembly = Assembly {
         files,
@@ -60,7 +73,9 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck, whole: bool) -> Result<Ass
         });
     }
     assembly.judge_kinds(whole)?;
-    for family in [Family::Cells, Family::Nodes, Family::Faces, Family::Points] {
+    assembly.define_all(Family::Cells)?;
+    assembly.find_shells(statements);
+    for family in [Family::Nodes, Family::Faces, Family::Points] {
         assembly.define_all(family)?;
     }
     assembly.note_missing();
@@ -323,10 +338,6 @@ impl Assembly<'_> {
     /// Refuses solids that have no element here; notes what it leaves out and what types mean.
     fn judge_kinds(&mut self, whole: bool) -> Result<()> {
         let dim = self.mesh.dim();
-        let in_words = |count: u64, name: &str| {
-            let s = if count == 1 { "" } else { "s" };
-            format!("{count} element{s} of type {name}")
-        };
         let kinds = || self.deck.kinds.iter().zip(self.counts.iter().copied());
         let left_out = || kinds().filter(|(kind, count)| kind.element.is_none() && *count > 0);
         let highest = left_out().map(|(kind, _)| kind.dim()).max().unwrap_or(0);

@@ -64,7 +64,7 @@ impl Assembly<'_> {
     }
 
     /// A set by its name, as seen from a space.
-    fn find(&self, number: usize, family: Family, name: &str) -> Option<&Set> {
+    pub(super) fn find(&self, number: usize, family: Family, name: &str) -> Option<&Set> {
         let found = self.spaces.get(number)?.get(family, &key(name));
         found.or_else(|| {
             let (space, rest) = of_instance(&self.instances, name).filter(|_| number == 0)?;
@@ -273,7 +273,13 @@ impl Assembly<'_> {
             },
         };
         self.spend(cells.len() + 1, definition.spot, "the sets")?;
-        let dim = self.mesh.dim();
+        let dim = self.dim();
+        let (shells, cells): (Vec<CellId>, Vec<CellId>) =
+            (cells.into_iter()).partition(|cell| self.directory.is_shell(*cell));
+        for cell in shells {
+            out.faces
+                .extend(self.side_of_shell(cell, side, definition)?);
+        }
         if side == Side::Free {
             return self.free_sides(definition, cells, out);
         }
@@ -286,7 +292,9 @@ impl Assembly<'_> {
                 Side::Number(n) if element.dim() == dim && usize::from(n) <= nside => {
                     out.faces.push(Face { cell, side: n - 1 });
                 }
-                Side::Number(1 | 2) | Side::Face if element.dim() + 1 == dim => {
+                Side::Number(1 | 2) | Side::Positive | Side::Negative
+                    if element.dim() + 1 == dim =>
+                {
                     out.cells.push(cell);
                 }
                 _ => {
@@ -294,17 +302,7 @@ impl Assembly<'_> {
                         true => format!("; its sides are S1 to S{nside}"),
                         false => "; name a side of the solid".to_owned(),
                     };
-                    return Err(MeshError::NoSuchSide {
-                        place: self.files.place(definition.spot),
-                        surface: definition.name.as_str().into(),
-                        element: self.mesh.cell_label(cell).unwrap_or(0),
-                        kind: element.name(),
-                        side: match side {
-                            Side::Number(n) => format!("S{n}").into(),
-                            _ => "SPOS or SNEG".into(),
-                        },
-                        hint: hint.into(),
-                    });
+                    return Err(self.no_such_side(cell, side, definition, hint));
                 }
             }
         }
@@ -320,8 +318,8 @@ impl Assembly<'_> {
     ) -> Result<()> {
         cells.sort_unstable();
         cells.dedup();
-        let mesh = &self.mesh;
-        let free = (self.free).get_or_insert_with(|| boundary(mesh, mesh.cells(mesh.dim())));
+        let (mesh, dim) = (&self.mesh, self.dim());
+        let free = (self.free).get_or_insert_with(|| boundary(mesh, mesh.cells(dim)));
         let before = out.faces.len();
         for cell in cells {
             let start = free.partition_point(|face| face.cell < cell);
