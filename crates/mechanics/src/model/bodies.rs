@@ -260,7 +260,7 @@ impl Context<'_> {
                         at_nodes,
                         initial: &initial,
                         axes: axes.map(|axes| *axes),
-                        directors: self.directors,
+                        directors: self.elimination.directors(),
                     })?;
                     solid.set_retardation(mass.retardation);
                     solid.set_activity(self.activity.clone());

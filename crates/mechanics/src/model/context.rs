@@ -5,7 +5,7 @@ use super::parts::CarrierPart;
 use super::spaces::Spaces;
 use super::substance::Substance;
 use crate::load::RadiationConstants;
-use crate::system::{Activity, Directors, Elimination, Idealisation, Layout, RigidMass};
+use crate::system::{Activity, Elimination, Idealisation, Layout, RigidMass};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::Vec3;
@@ -15,7 +15,6 @@ use std::sync::Arc;
 /// What the parts of a model are made from.
 pub(super) struct Context<'a> {
     pub mesh: &'a Mesh,
-    pub directors: &'a Directors,
     pub singles: &'a Singles<'a>,
     pub reference: &'a Arc<[Vec3]>,
     pub owner: &'a HashMap<CellId, usize>,

@@ -166,7 +166,8 @@ impl Model {
             contacts,
         };
         let mut layout = heat::with_temperatures(followers.layout(), &parts.steps);
-        let (elimination, ties) = followers.elimination(&layout)?;
+        let (mut elimination, ties) = followers.elimination(&layout)?;
+        elimination.take_directors(directors);
         let poses = elimination.initial_poses();
         let joint = contact::Steps::new(contacts, &parts.steps, &activity, parts.tolerances());
         let rubs = joint.rubbing();
@@ -193,7 +194,6 @@ impl Model {
         let temperature = heat::given(parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
-            directors: &directors,
             singles: &singles,
             reference: &reference,
             owner: &owner,
@@ -215,7 +215,7 @@ impl Model {
         let (mut steps, loads) = context.steps(parts.steps, contacts)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
-        elimination.follow_directors(&layout, &directors);
+        elimination.follow_directors(&layout);
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
         let loads = loads::terms(&context, &steps, loads)?;
         let held_by_contact =

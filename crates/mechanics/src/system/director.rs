@@ -15,30 +15,37 @@ pub struct Director {
     pub ends: [NodeId; 2],
 }
 
-/// The directors of a model by the nodes at their ends.
+/// The directors of a model by their nodes.
 #[derive(Clone, Debug, Default)]
 pub struct Directors {
     all: Vec<Director>,
-    /// The director of each node of the mesh, `u32::MAX` where it is at the end of none; empty without directors.
+    /// The director that ends at each node of the mesh, and that whose half it carries; `u32::MAX` where there is none, empty
+    /// without directors.
     of_end: Vec<u32>,
+    of_half: Vec<u32>,
 }
 
 impl Directors {
     /// Those of a mesh of `nnode` nodes.
     #[must_use]
     pub fn new(all: Vec<Director>, nnode: usize) -> Self {
-        let mut of_end = Vec::new();
-        if !all.is_empty() {
-            of_end.resize(nnode, u32::MAX);
-        }
+        let nnode = if all.is_empty() { 0 } else { nnode };
+        let (mut of_end, mut of_half) = (vec![u32::MAX; nnode], vec![u32::MAX; nnode]);
         for (number, director) in (0..).zip(&all) {
             for end in director.ends {
                 if let Some(of) = of_end.get_mut(end as usize) {
                     *of = number;
                 }
             }
+            if let Some(of) = of_half.get_mut(director.half as usize) {
+                *of = number;
+            }
         }
-        Self { all, of_end }
+        Self {
+            all,
+            of_end,
+            of_half,
+        }
     }
 
     /// All of them.
@@ -51,6 +58,13 @@ impl Directors {
     #[must_use]
     pub fn at_end(&self, node: NodeId) -> Option<&Director> {
         let number = *self.of_end.get(node as usize)?;
+        self.all.get(number as usize)
+    }
+
+    /// The director whose half difference a node carries.
+    #[must_use]
+    pub fn with_half(&self, node: NodeId) -> Option<&Director> {
+        let number = *self.of_half.get(node as usize)?;
         self.all.get(number as usize)
     }
 
@@ -82,10 +96,22 @@ impl Directors {
 }
 
 impl Elimination {
-    /// Lets the ends of directors follow their unknowns, (E3), whatever these follow themselves.
-    pub fn follow_directors(&mut self, layout: &Layout, directors: &Directors) {
-        let mut relations = Vec::with_capacity(6 * directors.all().len());
-        for director in directors.all() {
+    /// Takes the directors of the model.
+    pub fn take_directors(&mut self, directors: Directors) {
+        self.directors = directors;
+    }
+
+    /// The directors of the model.
+    #[must_use]
+    pub const fn directors(&self) -> &Directors {
+        &self.directors
+    }
+
+    /// Lets the ends of directors follow their unknowns, (E3), whatever these follow themselves. To be called when all other
+    /// relations are made.
+    pub fn follow_directors(&mut self, layout: &Layout) {
+        let mut relations = Vec::with_capacity(6 * self.directors.all().len());
+        for director in self.directors.all() {
             for (end, sign) in director.ends.into_iter().zip([-1.0, 1.0]) {
                 for axis in 0..layout.ndim() {
                     let mut relation = Relation {
@@ -93,22 +119,16 @@ impl Elimination {
                         terms: Vec::with_capacity(2),
                         turns: Vec::new(),
                     };
-                    self.add_terms(
-                        layout.node(director.middle, axis),
-                        1.0,
-                        layout,
-                        &mut relation,
-                    );
-                    self.add_terms(
-                        layout.node(director.half, axis),
-                        sign,
-                        layout,
-                        &mut relation,
-                    );
+                    let middle = layout.node(director.middle, axis);
+                    let half = layout.node(director.half, axis);
+                    self.add_terms(middle, 1.0, layout, &mut relation);
+                    self.add_terms(half, sign, layout, &mut relation);
                     relations.push(relation);
                 }
             }
         }
-        self.relate_more(layout, relations);
+        if !relations.is_empty() {
+            self.relate_more(layout, relations);
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Unknowns that follow others: rigid bodies and couplings (E1), equations (E3).
 
-use super::{Dof, Layout, NO_DOF, State};
+use super::{Directors, Dof, Layout, NO_DOF, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Pose, RigidId};
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -55,6 +55,8 @@ pub struct Elimination {
     relations: Vec<Relation>,
     /// The unknown by which right-hand sides grow.
     course: Option<Dof>,
+    /// The directors of thin bodies.
+    pub(super) directors: Directors,
 }
 
 /// A local contribution after its dependent unknowns have been replaced.

@@ -203,8 +203,14 @@ fn body_part(
             later,
             density,
             mass,
-            integration: integration(body.integration),
-            locking: locking(body.locking.value),
+            integration: match &body.shell {
+                Some(shell) => Integration::Through(shell.points),
+                None => integration(body.integration),
+            },
+            locking: match &body.shell {
+                Some(_) => Locking::Shell,
+                None => locking(body.locking.value),
+            },
             space: plane.map(|plane| plane.space),
             profile: plane.and_then(|plane| plane.profile.clone()),
             linear_temperatures: body.temperatures == Temperatures::Linear,
@@ -221,15 +227,6 @@ fn body_part(
         },
         cells,
     })
-}
-
-/// Refuses shells.
-pub(super) fn refuse_shells(case: &Case, found: &mut Diagnostics) {
-    let mut shells = case.bodies.iter().filter_map(|body| body.shell.as_ref());
-    if let Some(shell) = shells.next() {
-        let message = Diagnostic::error(&codes::NOT_BUILT, "shells are not built yet");
-        found.push(message.at(&shell.place, "known, but this version cannot do it"));
-    }
 }
 
 /// A warning of thicknesses at nodes that no body takes.
@@ -354,7 +351,8 @@ const fn locking(word: case::Locking) -> Locking {
 /// The word of what the program has chosen against locking.
 pub(super) const fn locking_word(chosen: Locking) -> case::Locking {
     match chosen {
-        Locking::Auto => case::Locking::Auto,
+        // a shell has no other choice
+        Locking::Auto | Locking::Shell => case::Locking::Auto,
         Locking::None => case::Locking::None,
         Locking::BBar => case::Locking::BBar,
         Locking::FBar => case::Locking::FBar,

@@ -13,6 +13,7 @@
 
 use super::names::{Names, face_normal};
 use super::quoted;
+use super::shells::Shells;
 use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
@@ -43,7 +44,8 @@ impl Cuts {
         let wanted = |kind: &ConstraintKind| matches!(kind, ConstraintKind::Pretension { .. });
         if case.constraints.iter().any(|one| wanted(&one.kind)) {
             // its own messages come again with the names of the mesh that is cut
-            let names = Names::new(case, mesh, &mut Diagnostics::new());
+            let shells = Shells::default();
+            let names = Names::new(case, mesh, &shells, &mut Diagnostics::new());
             for (number, one) in case.constraints.iter().enumerate() {
                 let ConstraintKind::Pretension { on, normal, .. } = &one.kind else {
                     continue;

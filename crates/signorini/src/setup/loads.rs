@@ -4,12 +4,14 @@ use super::carriers::Carriers;
 use super::constraints::axes;
 use super::names::{ALL, Names};
 use super::quoted;
+use super::shells::{line_load, moments};
 use super::steps::idle;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Axis, Case, Directions, Step};
 use signorini_io::diagnostic::{self, Diagnostic, Diagnostics, codes};
-use signorini_mechanics::load::{self, Acting, Domain, Load, Place};
+use signorini_mechanics::load::{self, Acting, Domain, Line, Load, Place};
 use signorini_mechanics::model::{BodyKind, BodyPart, ConstraintKind, ConstraintPart};
 use signorini_mechanics::system::Idealisation;
 use signorini_vocabulary::Entry;
@@ -78,6 +80,9 @@ impl Context<'_> {
             let place = place.map(|()| Place::Carrier(carrier));
             return Vec::from_iter(place.map(|place| Acting { load: acts, place }));
         }
+        if let Some(all) = self.on_shells(load, acts.as_ref(), found) {
+            return all;
+        }
         let on_masses = self.on_masses(load, &acts);
         let has_cells = on_masses.is_none() || self.names.has_cells(&load.on);
         let place = has_cells.then(|| self.place(load, acts.as_ref(), found));
@@ -86,6 +91,38 @@ impl Context<'_> {
         let is_left = |one: &Acting| on_masses.is_none() || !one.is_nowhere();
         let on_place = on_place.filter(is_left);
         on_place.into_iter().chain(on_masses).collect()
+    }
+
+    /// A moment at nodes of shells, or a force along their edges.
+    fn on_shells(
+        &self,
+        load: &case::Load,
+        acts: &dyn Load,
+        found: &mut Diagnostics,
+    ) -> Option<Vec<Acting>> {
+        let shells = self.names.shells();
+        if shells.is_empty() {
+            return None;
+        }
+        if load.kind.name == "line" {
+            let follows = load.follows.as_ref().is_none_or(|follows| follows.value);
+            let force = load.kind.values.number("line").ok()?;
+            let faces = self.names.faces(&load.on, "a line load", found);
+            let line = Line { force, follows };
+            return Some(line_load(
+                &line,
+                faces.unwrap_or_default(),
+                self.names.mesh(),
+            ));
+        }
+        let [force, moment] = acts.resultant(1.0)?;
+        if force != Vec3::ZERO || acts_by_mass(acts) {
+            return None;
+        }
+        let nodes = self.names.nodes(&load.on, found).unwrap_or_default();
+        let label = |node| self.names.label(node);
+        let acting = moments(shells, (load, moment), &nodes, label, found);
+        Some(acting.into_iter().collect())
     }
 
     /// A load by mass on masses that are not of bodies that deform: on all, on those given to the named set, or at its nodes

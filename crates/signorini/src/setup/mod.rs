@@ -30,6 +30,7 @@ mod prints;
 mod process_zones;
 mod refused;
 mod settings;
+mod shells;
 mod steps;
 mod submodel;
 mod surfaces;
@@ -53,6 +54,7 @@ use cuts::Cuts;
 use general::{General, Pair, Source};
 use names::Names;
 use origin::Origin;
+use shells::Shells;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_io::case::{Case, FreeMotions, Stabilize};
 use signorini_io::deck;
@@ -187,20 +189,22 @@ fn build_in_words(
 
 fn build_of(
     mut case: Case,
-    mut mesh: Mesh,
+    mesh: Mesh,
     own: &Own,
     pairs: Option<&[Pair]>,
 ) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
     own::check(&case, own, &mut found);
-    bodies::refuse_shells(&case, &mut found);
     // what is lacking draws other messages after it
     if found.has_errors() {
         return Err(found);
     }
     let origin = Origin::new(&case, &mesh, own);
+    let Some((mut mesh, shells)) = Shells::expand(&case, mesh, &mut found) else {
+        return Err(found);
+    };
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
-    let mut names = Names::new(&case, &mesh, &mut found);
+    let mut names = Names::new(&case, &mesh, &shells, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
     let settings = settings::settings(&case.solver, &mut found);
     let prints = prints::prints(&case, &names, &mut found);
@@ -330,6 +334,7 @@ fn parts<'a>(
     }
     let mut parts = Parts::new(mesh, idealisation(&case.model));
     parts.bodies = bodies::bodies(case, names, carriers, own, found);
+    parts.directors = names.shells().parts();
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, cuts, found);

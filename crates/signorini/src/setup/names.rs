@@ -1,5 +1,6 @@
 //! What the names of a case stand for in its mesh.
 
+use super::shells::Shells;
 use super::{OwnPlane, idealisation};
 use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary, select};
 use signorini_geometry::surface::Facets;
@@ -31,6 +32,7 @@ pub(super) struct Names<'a> {
     surfaces: BTreeSet<String>,
     nodes: HashMap<u64, NodeId>,
     index: FaceIndex,
+    shells: &'a Shells,
 }
 
 /// Cells that bodies are made of.
@@ -58,7 +60,29 @@ impl Cells {
 
 impl<'a> Names<'a> {
     /// Resolves all sets of the case.
-    pub fn new(case: &Case, mesh: &'a Mesh, found: &mut Diagnostics) -> Self {
+    pub fn new(case: &Case, mesh: &'a Mesh, shells: &'a Shells, found: &mut Diagnostics) -> Self {
+        let ndim = case.model.space.ndim();
+        Self::of_dimensions(case, mesh, shells, &[ndim], found)
+    }
+
+    /// The same of a mesh whose shells are still surfaces: sets may list these.
+    pub fn of_surfaces(
+        case: &Case,
+        mesh: &'a Mesh,
+        shells: &'a Shells,
+        found: &mut Diagnostics,
+    ) -> Self {
+        Self::of_dimensions(case, mesh, shells, &[2, 3], found)
+    }
+
+    /// Elements that sets list are of these dimensions.
+    fn of_dimensions(
+        case: &Case,
+        mesh: &'a Mesh,
+        shells: &'a Shells,
+        listed: &[usize],
+        found: &mut Diagnostics,
+    ) -> Self {
         let ndim = case.model.space.ndim();
         let labels = mesh.node_labels.iter().enumerate();
         let mut names = Self {
@@ -75,6 +99,7 @@ impl<'a> Names<'a> {
                 .map(|(node, &label)| (label, node as NodeId))
                 .collect(),
             index: FaceIndex::new(mesh, mesh.cells(ndim)),
+            shells,
         };
         let all = || Set {
             cells: (1..=ndim).flat_map(|dim| mesh.cells(dim)).collect(),
@@ -82,7 +107,7 @@ impl<'a> Names<'a> {
         };
         names.sets.entry(ALL.to_owned()).or_insert_with(all);
         let mut cells: HashMap<u64, CellId> = HashMap::new();
-        for cell in mesh.cells(ndim) {
+        for cell in listed.iter().flat_map(|&dim| mesh.cells(dim)) {
             if let Some(label) = mesh.cell_label(cell) {
                 cells.insert(label, cell);
             }
@@ -115,7 +140,7 @@ impl<'a> Names<'a> {
     }
 
     /// The thickness of every node, 0 where the case says nothing; nothing where it says nothing of any.
-    fn thicknesses(&self, case: &Case, found: &mut Diagnostics) -> Vec<f64> {
+    pub fn thicknesses(&self, case: &Case, found: &mut Diagnostics) -> Vec<f64> {
         if case.thicknesses.is_empty() {
             return Vec::new();
         }
@@ -146,14 +171,24 @@ impl<'a> Names<'a> {
                 self.missing(part, "node", &unknown, found);
             }
             SetContent::Elements(labels) => {
-                let known = labels.iter().filter_map(|label| cells.get(label));
-                set.cells = known.copied().collect();
+                for label in labels {
+                    match self.shells.solids(*label) {
+                        Some(solids) => set.cells.extend(solids),
+                        None => set.cells.extend(cells.get(label)),
+                    }
+                }
                 let unknown: Vec<&u64> = labels.iter().filter(|l| !cells.contains_key(l)).collect();
                 self.missing(part, "element", &unknown, found);
             }
             SetContent::Faces(faces) => {
                 let mut unknown = Vec::new();
                 for (label, side) in faces {
+                    if let Side::Numbered(number) = side
+                        && let Some(faces) = self.shells.side(*label, *number)
+                    {
+                        set.faces.extend(faces);
+                        continue;
+                    }
                     match cells.get(label) {
                         Some(&cell) => set.faces.extend(self.face(part, cell, side, found)),
                         None => unknown.push(label),
@@ -187,7 +222,11 @@ impl<'a> Names<'a> {
     ) -> Vec<NodeId> {
         let among = match of {
             Some(of) => self.nodes(of, found),
-            None => self.sets.get(ALL).map(|all| self.mesh.nodes_of(all)),
+            None => self.sets.get(ALL).map(|all| {
+                let mut nodes = self.mesh.nodes_of(all);
+                self.shells.to_surface(&mut nodes);
+                nodes
+            }),
         };
         let Some(among) = among else {
             return Vec::new();
@@ -278,6 +317,16 @@ impl<'a> Names<'a> {
         set
     }
 
+    /// The shells of the model.
+    pub const fn shells(&self) -> &'a Shells {
+        self.shells
+    }
+
+    /// The mesh.
+    pub const fn mesh(&self) -> &'a Mesh {
+        self.mesh
+    }
+
     /// What a name stands for, without a message.
     pub fn set(&self, name: &str) -> Option<&Set> {
         self.sets.get(name)
@@ -346,7 +395,8 @@ impl<'a> Names<'a> {
 
     /// The nodes of a set.
     pub fn nodes(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<NodeId>> {
-        let nodes = self.mesh.nodes_of(self.get(name, found)?);
+        let mut nodes = self.mesh.nodes_of(self.get(name, found)?);
+        self.shells.to_surface(&mut nodes);
         if nodes.is_empty() {
             found.push(
                 Diagnostic::error(&codes::WRONG_KIND, format!("{} is empty", quoted(name)))
@@ -565,8 +615,13 @@ impl<'a> Names<'a> {
 
     /// The nodes of every set.
     pub fn node_sets(&self) -> BTreeMap<String, Vec<NodeId>> {
+        let of_set = |set| {
+            let mut nodes = self.mesh.nodes_of(set);
+            self.shells.to_surface(&mut nodes);
+            nodes
+        };
         let sets = self.sets.iter();
-        sets.map(|(name, set)| (name.clone(), self.mesh.nodes_of(set)))
+        sets.map(|(name, set)| (name.clone(), of_set(set)))
             .collect()
     }
 }

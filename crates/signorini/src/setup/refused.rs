@@ -281,6 +281,11 @@ fn of_solid_error(error: &SolidError) -> (&'static Code, &str, &'static str) {
             body,
             "name a group of solid elements of the model's dimension",
         ),
+        SolidError::NoDirector { body, .. } => (
+            &codes::WRONG_KIND,
+            body,
+            "write  shell = { thickness = }  in its [[body]]",
+        ),
         SolidError::NotBar { body, .. } => {
             (&codes::WRONG_KIND, body, "name a group of line elements")
         }

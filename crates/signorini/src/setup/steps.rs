@@ -9,6 +9,7 @@ use super::loads::{self, Coupling};
 use super::names::Names;
 use super::nonlinear::nonlinear;
 use super::quoted;
+use super::shells::{Rotations, gradients, no_rotations};
 use crate::own::Own;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_io::case::{
@@ -41,6 +42,7 @@ impl Builder<'_> {
     pub fn steps(&self, found: &mut Diagnostics) -> (Vec<StepPart>, Vec<ConstraintPart>) {
         let mut goes_on = false;
         let mut couplings = Vec::new();
+        let mut rotations = Rotations::default();
         let mut contacts = Changes::new(self.case, self.own);
         let mut steps = Vec::new();
         let owned = self.owned();
@@ -55,7 +57,7 @@ impl Builder<'_> {
                 control: step.dynamics.as_ref().and_then(|of| control(step, of)),
                 vibration: self.vibration(step, found),
                 physics: heat::physics(step),
-                changes: self.changes(step, found),
+                changes: self.changes((number, step), &mut rotations, found),
                 loads: self.loads(number, step, &mut couplings, found),
                 contacts: contacts.of(step, found),
                 temperatures: self.temperatures(step, found),
@@ -77,7 +79,8 @@ impl Builder<'_> {
                 || part.loads.iter().any(|load| load.course.goes_on());
             steps.push(part);
         }
-        (steps, couplings.into_iter().map(Coupling::part).collect())
+        let couplings = couplings.into_iter().map(Coupling::part);
+        (steps, couplings.chain(rotations.parts()).collect())
     }
 
     /// The method of a dynamic step.
@@ -142,7 +145,12 @@ impl Builder<'_> {
         }
     }
 
-    fn changes(&self, step: &Step, found: &mut Diagnostics) -> Vec<Change> {
+    fn changes(
+        &self,
+        (number, step): (usize, &Step),
+        rotations: &mut Rotations,
+        found: &mut Diagnostics,
+    ) -> Vec<Change> {
         let mut changes = Vec::new();
         for free in &step.frees {
             let turns = !free.rot.is_empty();
@@ -155,10 +163,13 @@ impl Builder<'_> {
             }
         }
         for fix in &step.fixes {
-            let turns = !fix.rot.is_empty();
-            if let Some(target) = self.target(&fix.on, turns, &fix.place, found) {
+            let mut rot = fix.rot;
+            if self.holds_rotations(number, fix, rotations, found) {
+                rot = Directions::default();
+            }
+            if let Some(target) = self.target(&fix.on, !rot.is_empty(), &fix.place, found) {
                 let hold = |c| (c, Motion::Hold);
-                let components = picked(&fix.u, &fix.rot).into_iter().map(hold);
+                let components = picked(&fix.u, &rot).into_iter().map(hold);
                 changes.push(Change::Prescribe(target, components.collect()));
             }
         }
@@ -176,6 +187,37 @@ impl Builder<'_> {
             }
         }
         changes
+    }
+
+    /// Holds rotations of nodes of shells, from the first step on; false where a support is of something else.
+    fn holds_rotations(
+        &self,
+        step: usize,
+        fix: &case::Fix,
+        rotations: &mut Rotations,
+        found: &mut Diagnostics,
+    ) -> bool {
+        let shells = self.names.shells();
+        if fix.rot.is_empty() || shells.is_empty() || self.carriers.get(&fix.on).is_some() {
+            return false;
+        }
+        // names that are not there are reported where displacements are held
+        let nodes = self.names.nodes(&fix.on, &mut Diagnostics::new());
+        let nodes = nodes.unwrap_or_default();
+        if nodes
+            .iter()
+            .any(|&node| shells.directors_at(node).is_empty())
+        {
+            return false;
+        }
+        let about = fix.rot.xyz;
+        if step > 0 && !nodes.iter().all(|&node| rotations.holds(node, about)) {
+            let text = "rotations of shells that are held from a later step on";
+            let one = Diagnostic::error(&codes::NOT_BUILT, text);
+            found.push(one.at(&fix.place, "hold them from the first step on"));
+        }
+        rotations.hold(shells, &nodes, about, &fix.on);
+        true
     }
 
     fn loads(
@@ -226,7 +268,29 @@ impl Builder<'_> {
                 }
             };
             let nodes = self.names.nodes(&part.on, found).unwrap_or_default();
-            temperatures.extend(nodes.into_iter().map(|node| (node, course.clone())));
+            let gradient = part.gradient.as_ref();
+            for (node, more) in gradients(
+                self.names.shells(),
+                &nodes,
+                gradient.map_or(0.0, |gradient| gradient.value),
+            ) {
+                let course = match &course {
+                    course if more == 0.0 => course.clone(),
+                    Motion::Ramp(to) => Motion::Ramp(to + more),
+                    Motion::Table(rows) if let [[time, to]] = rows[..] => {
+                        Motion::Table(vec![[time, to + more]])
+                    }
+                    _ => {
+                        let text = "a temperature with a course and a gradient";
+                        let one = Diagnostic::error(&codes::NOT_BUILT, text);
+                        found.push(
+                            one.at(&part.place, "leave the gradient away, or write a number"),
+                        );
+                        break;
+                    }
+                };
+                temperatures.push((node, course));
+            }
         }
         temperatures
     }
@@ -235,7 +299,9 @@ impl Builder<'_> {
     fn freed_temperatures(&self, step: &Step, found: &mut Diagnostics) -> Vec<NodeId> {
         let freed = step.frees.iter().filter(|free| free.temperature);
         let nodes = freed.filter_map(|free| self.names.nodes(&free.on, found));
-        nodes.flatten().collect()
+        let with_faces = |nodes: Vec<NodeId>| gradients(self.names.shells(), &nodes, 0.0);
+        let nodes = nodes.flat_map(with_faces);
+        nodes.map(|(node, _)| node).collect()
     }
 
     /// The cells of bodies, where steps ask for them.
@@ -301,17 +367,7 @@ impl Builder<'_> {
         }
         let nodes = self.names.nodes(on, found)?;
         if turns {
-            found.push(
-                Diagnostic::error(
-                    &codes::WRONG_KIND,
-                    format!("the nodes of {} have no rotations", quoted(on)),
-                )
-                .at(place, "nodes of solids only move")
-                .help(
-                    "leave the rotations away; or tie the nodes to a [reference] by a kinematic [[constraint]], and name \
-                     the reference here",
-                ),
-            );
+            found.push(no_rotations(on, place));
         }
         Some(Target::Nodes(nodes))
     }

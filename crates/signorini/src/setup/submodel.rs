@@ -5,6 +5,7 @@
 
 use super::names::Names;
 use super::quoted;
+use super::shells::Shells;
 use signorini_geometry::location::{Located, Locator};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
@@ -48,7 +49,8 @@ pub fn read_motions_of(
     let mut files = BTreeSet::new();
     let mut wanted: Vec<(usize, usize, Values)> = Vec::new();
     {
-        let names = Names::new(case, mesh, &mut found);
+        let shells = Shells::default();
+        let names = Names::of_surfaces(case, mesh, &shells, &mut found);
         let mut known: HashMap<(PathBuf, GlobalTime), Option<Global>> = HashMap::new();
         for (s, step) in case.steps.iter().enumerate() {
             for (m, one) in step.moves.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use super::heat;
 use super::names::Names;
+use super::shells::gradients;
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{Case, Expansion, Material};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
@@ -76,9 +77,10 @@ pub(super) fn at_start<'a>(
     };
     let mut field = vec![start; mesh.nnode()];
     for one in &case.initial_temperatures {
-        for node in names.nodes(&one.on, found).unwrap_or_default() {
+        let nodes = names.nodes(&one.on, found).unwrap_or_default();
+        for (node, more) in gradients(names.shells(), &nodes, one.gradient.unwrap_or_default()) {
             if let Some(at) = field.get_mut(node as usize) {
-                *at = one.temperature;
+                *at = one.temperature + more;
             }
         }
     }

@@ -34,7 +34,7 @@ pub use unheld::Unheld;
 
 use super::{BodyPart, CarrierPart, ModelError};
 use crate::model::label::label;
-use crate::system::{Elimination, Idealisation};
+use crate::system::{Directors, Elimination, Idealisation};
 use null_space::null_space;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
@@ -97,7 +97,7 @@ impl<'a> Held<'a> {
         elimination: &'a Elimination,
         is_active: &dyn Fn(CellId) -> bool,
     ) -> Self {
-        let (mut units, part_of) = parts(mesh, bodies, is_active);
+        let (mut units, part_of) = parts(mesh, bodies, elimination.directors(), is_active);
         let first_carrier = units.len();
         for (carrier, body) in carriers.iter().zip(elimination.bodies()) {
             let mut unit = Unit::of_nodes(mesh, body.reference, &body.nodes);
@@ -308,6 +308,7 @@ impl Unit {
 fn parts(
     mesh: &Mesh,
     bodies: &[BodyPart],
+    directors: &Directors,
     is_active: &dyn Fn(CellId) -> bool,
 ) -> (Vec<Unit>, Vec<Option<usize>>) {
     let mut root: Vec<NodeId> = (0..mesh.nnode() as NodeId).collect();
@@ -318,15 +319,21 @@ fn parts(
     };
     for (_, body) in deformable() {
         for &cell in body.cells.iter().filter(|cell| is_active(**cell)) {
-            for pair in mesh.cell(cell).windows(2) {
+            let nodes = mesh.cell(cell);
+            for pair in nodes.windows(2) {
                 unite(&mut root, pair[0], pair[1]);
+            }
+            let first = nodes.first().copied().unwrap_or_default();
+            for node in directors.behind(nodes) {
+                unite(&mut root, first, node);
             }
         }
     }
     let mut in_part = vec![false; mesh.nnode()];
     for (number, body) in deformable() {
         for &cell in body.cells.iter().filter(|cell| is_active(**cell)) {
-            for &node in mesh.cell(cell) {
+            let nodes = mesh.cell(cell);
+            for node in nodes.iter().copied().chain(directors.behind(nodes)) {
                 in_part[node as usize] = true;
             }
             if let Some(&node) = mesh.cell(cell).first() {

@@ -390,7 +390,7 @@ impl Held<'_> {
             let found = match unknown {
                 Unknown::Node(node, axis) => self.unit(node).map(|unit| {
                     let along = Vec3::unit(axis) * coefficient;
-                    (unit, self.moves(unit, self.point(node), along))
+                    (unit, self.moves_node(unit, node, along))
                 }),
                 Unknown::Carrier(id, component) => self.carrier(id).map(|unit| {
                     let mut motion = [0.0; NCOMPONENT];
@@ -433,6 +433,17 @@ impl Held<'_> {
     fn point(&self, node: NodeId) -> Vec3 {
         let point = self.mesh.points.get(node as usize);
         point.copied().unwrap_or_default()
+    }
+
+    /// Coefficients of `along · u` of a node; half a director turns with its unit, `d = θ × D`.
+    fn moves_node(&self, unit: usize, node: NodeId, along: Vec3) -> Motion {
+        let Some(director) = self.elimination.directors().with_half(node) else {
+            return self.moves(unit, self.point(node), along);
+        };
+        let [low, high] = director.ends.map(|end| self.point(end));
+        let length = self.units.get(unit).map_or(1.0, |unit| unit.length);
+        let turn = ((high - low) * 0.5).cross(along) * (1.0 / length);
+        [0.0, 0.0, 0.0, turn.x, turn.y, turn.z]
     }
 
     /// Coefficients of `along · u(x)` (E1).

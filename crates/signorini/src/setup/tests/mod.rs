@@ -56,9 +56,12 @@ struct Built {
 
 fn try_parts(text: &str) -> Result<Built, Diagnostics> {
     let (mut case, mut found) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary())?;
-    let (mut mesh, _) = read_mesh_of(&case, Path::new("."))?;
+    let (mesh, _) = read_mesh_of(&case, Path::new("."))?;
+    let Some((mut mesh, shells)) = Shells::expand(&case, mesh, &mut found) else {
+        return Err(found);
+    };
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
-    let names = Names::new(&case, &mesh, &mut found);
+    let names = Names::new(&case, &mesh, &shells, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
     let (parts, start) = match parts(
         &case,

@@ -20,7 +20,7 @@
 //! against locking in shear and of curved thickness, and all are enhanced by five modes `α`,
 //!
 //! ```text
-//! M_11 = ξ α_1,   M_22 = η α_2,   2 M_12 = ξ α_3 + η α_4,   M_33 = ζ α_5
+//! M_kk |G₀ᵏ|² = ξ α_1, η α_2, ζ α_5,   2 M_12 |G₀¹||G₀²| = ξ α_3 + η α_4
 //! E_ij += (G_i·G₀ᵏ)(G_j·G₀ˡ) M_kl (J₀/J)                                                       (E38)
 //! ```
 //!

@@ -262,13 +262,15 @@ impl Geometry {
     /// (E38).
     fn modes(&self, xi: Vec3, base: &[Vec3; 3], det: f64) -> [[f64; MODES]; 6] {
         let scale = self.det / det;
+        // modes of the size of strains along the axes of the frame: those of thin elements differ by powers of their thickness
+        let [a, b, c] = self.dual.map(|dual| dual.norm().recip());
         // (place of M_kl in pairs of axes, its size), mode by mode
         let tensors = [
-            ((0, 0), xi.x * scale),
-            ((1, 1), xi.y * scale),
-            ((0, 1), 0.5 * xi.x * scale),
-            ((0, 1), 0.5 * xi.y * scale),
-            ((2, 2), xi.z),
+            ((0, 0), xi.x * scale * a * a),
+            ((1, 1), xi.y * scale * b * b),
+            ((0, 1), 0.5 * xi.x * scale * a * b),
+            ((0, 1), 0.5 * xi.y * scale * a * b),
+            ((2, 2), xi.z * c * c),
         ];
         let mut modes = [[0.0; MODES]; 6];
         let cosines = base.map(|g| self.dual.map(|dual| g.dot(dual)));
