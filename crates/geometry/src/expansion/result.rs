@@ -36,6 +36,18 @@ pub enum ShellSide {
     Edge(usize),
 }
 
+impl ShellSide {
+    /// The side of this number, from 0: the negative face, the positive one, then the edges.
+    #[must_use]
+    pub fn numbered(number: u8) -> Self {
+        match number {
+            0 => Self::Negative,
+            1 => Self::Positive,
+            edge => Self::Edge(usize::from(edge) - 2),
+        }
+    }
+}
+
 /// A node with several directors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knot {

@@ -56,12 +56,12 @@ pub(super) fn replace(this: &mut Expansion, shells: &Shells<'_>) -> Result<(), E
     Ok(())
 }
 
-/// The faces of a set; a side of a shell, which is one of its edges, becomes the faces there.
+/// The faces of a set; sides of shells are 0, the negative one, 1, the positive one, and their edges from 2 on.
 fn faces(this: &Expansion, shells: &Shells<'_>, given: &[Face]) -> Vec<Face> {
     let mut faces = Vec::with_capacity(given.len());
     for &Face { cell, side } in given {
         match shells.of(cell) {
-            Some(shell) => faces.extend(this.faces(shell, ShellSide::Edge(side as usize))),
+            Some(shell) => faces.extend(this.faces(shell, ShellSide::numbered(side))),
             None => faces.extend(this.kept.of(cell).map(|cell| Face { cell, side })),
         }
     }

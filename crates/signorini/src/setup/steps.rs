@@ -80,7 +80,12 @@ impl Builder<'_> {
             steps.push(part);
         }
         let couplings = couplings.into_iter().map(Coupling::part);
-        (steps, couplings.chain(rotations.parts()).collect())
+        (
+            steps,
+            couplings
+                .chain(rotations.parts(self.names.shells()))
+                .collect(),
+        )
     }
 
     /// The method of a dynamic step.
@@ -216,7 +221,7 @@ impl Builder<'_> {
             let one = Diagnostic::error(&codes::NOT_BUILT, text);
             found.push(one.at(&fix.place, "hold them from the first step on"));
         }
-        rotations.hold(shells, &nodes, about, &fix.on);
+        rotations.hold(&nodes, about, &fix.on);
         true
     }
 

@@ -166,17 +166,8 @@ impl Shells {
     /// The faces of a side of an element of the input, where it is a shell: 1 negative, 2 positive, 3 and more its edges.
     pub fn side(&self, label: u64, side: u8) -> Option<Vec<Face>> {
         let number = *self.by_label.get(&label)?;
-        let side = match side {
-            1 => ShellSide::Negative,
-            2 => ShellSide::Positive,
-            side => ShellSide::Edge(usize::from(side).checked_sub(3)?),
-        };
+        let side = ShellSide::numbered(side.checked_sub(1)?);
         Some(self.expansion.as_ref()?.faces(number, side).collect())
-    }
-
-    /// The element of the input behind each solid.
-    pub fn labels(&self) -> impl Iterator<Item = u64> + '_ {
-        self.by_label.keys().copied()
     }
 }
 

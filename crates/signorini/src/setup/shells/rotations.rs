@@ -18,34 +18,35 @@ const NORMAL: f64 = 1e-6;
 /// Rotations that supports hold.
 #[derive(Default)]
 pub(in crate::setup) struct Rotations {
-    /// About which axes, of each node; and since which step.
-    held: BTreeMap<NodeId, [bool; 3]>,
-    parts: Vec<ConstraintPart>,
+    /// About which axes, of each node, and a support that does.
+    held: BTreeMap<NodeId, ([bool; 3], String)>,
 }
 
 impl Rotations {
     /// Whether all these rotations of a node are held.
     pub fn holds(&self, node: NodeId, about: [bool; 3]) -> bool {
-        let held = self.held.get(&node).copied().unwrap_or_default();
+        let held = self.held.get(&node).map(|one| one.0).unwrap_or_default();
         held.iter().zip(about).all(|(held, about)| *held || !about)
     }
 
     /// Holds rotations of nodes about some axes, in the whole run.
-    pub fn hold(&mut self, shells: &Shells, nodes: &[NodeId], about: [bool; 3], on: &Name) {
+    pub fn hold(&mut self, nodes: &[NodeId], about: [bool; 3], on: &Name) {
         for &node in nodes {
-            let held = self.held.entry(node).or_default();
+            let held = self.held.entry(node);
+            let (held, _) = held.or_insert_with(|| ([false; 3], on.value.clone()));
             held.iter_mut()
                 .zip(about)
                 .for_each(|(held, about)| *held |= about);
-            for director in shells.directors_at(node) {
-                self.parts.extend(equations(director, about, on));
-            }
         }
     }
 
-    /// They as constraints.
-    pub fn parts(self) -> Vec<ConstraintPart> {
-        self.parts
+    /// They as constraints: those of all supports of a node together, for axes in the plane of a shell may be alike.
+    pub fn parts(&self, shells: &Shells) -> Vec<ConstraintPart> {
+        let held = self.held.iter().flat_map(|(&node, (about, on))| {
+            let directors = shells.directors_at(node).iter();
+            directors.flat_map(move |director| equations(director, *about, on))
+        });
+        held.collect()
     }
 }
 
@@ -54,16 +55,16 @@ impl Rotations {
 fn equations<'a>(
     director: &'a Director,
     about: [bool; 3],
-    on: &'a Name,
+    on: &'a str,
 ) -> impl Iterator<Item = ConstraintPart> + 'a {
-    still(director.normal, about).into_iter().map(|along| {
+    still(director.normal, about).into_iter().map(move |along| {
         let terms = (0..3).map(|axis| (Unknown::Node(director.half, axis), along[axis]));
         let kind = ConstraintKind::Equation {
             terms: terms.filter(|(_, factor)| *factor != 0.0).collect(),
             rhs: 0.0,
         };
         ConstraintPart {
-            name: format!("held rotations of \"{}\"", on.value),
+            name: format!("held rotations of \"{on}\""),
             kind,
         }
     })
