@@ -4,10 +4,11 @@ use super::join::Joined;
 use super::sheet::Sheet;
 use crate::mesh::NodeId;
 use crate::tensor::Vec3;
-use std::ops::Range;
 
 /// The part of a chord along the surface below which the normals describe no arc, and the edge stays straight.
 const STEEPEST: f64 = 0.5;
+/// The sine of the least angle between the normals of a fold, whatever the angle within which they join.
+const LEAST_FOLD: f64 = 1e-3;
 
 /// The normals at one end of an edge: one of a smooth surface, two on a fold.
 #[derive(Clone, Copy, Default)]
@@ -44,17 +45,17 @@ impl End {
     }
 }
 
-/// An edge from its end of lower number to the other.
-#[derive(Clone, Copy, Default)]
-struct Edge {
-    nodes: [NodeId; 2],
-    ends: [End; 2],
-}
-
-/// Places the new nodes in the middles of edges, (E3). `angle` is that within which normals join.
-pub(super) fn bend(sheet: &mut Sheet<'_>, middles: Range<usize>, joined: &Joined, angle: f64) {
-    let fold = angle.sin();
-    let mut edges = vec![Edge::default(); middles.len()];
+/// Places the new nodes in the middles of edges, which start with node `first`, (E3). The edges have these ends; `angle`
+/// is that within which normals join.
+pub(super) fn bend(
+    sheet: &mut Sheet<'_>,
+    first: usize,
+    edges: &[[NodeId; 2]],
+    joined: &Joined,
+    angle: f64,
+) {
+    let fold = angle.sin().max(LEAST_FOLD);
+    let mut normals = vec![[End::default(); 2]; edges.len()];
     let mut order: Vec<u32> = (0..sheet.pieces.len() as u32).collect();
     order.sort_by_key(|&p| sheet.pieces[p as usize].shell.label);
     for p in order {
@@ -62,27 +63,24 @@ pub(super) fn bend(sheet: &mut Sheet<'_>, middles: Range<usize>, joined: &Joined
         let element = piece.shell.element;
         for (i, &at) in piece.pattern.nodes.iter().enumerate() {
             let middle = sheet.stations[piece.first + i].node as usize;
-            let Some(&ends) = element.edges().get(at.wrapping_sub(element.ncorner())) else {
+            let corners = element.edges().get(at.wrapping_sub(element.ncorner()));
+            let normals = normals.get_mut(middle.wrapping_sub(first));
+            let (Some(&ends), Some(normals)) = (corners, normals) else {
                 continue;
             };
-            if !middles.contains(&middle) {
-                continue;
-            }
             // corners are the first stations
             let mut ends = ends.map(|corner| piece.first + corner);
             ends.sort_by_key(|&s| sheet.stations[s].node);
-            let edge = &mut edges[middle - middles.start];
-            for (k, s) in ends.into_iter().enumerate() {
-                edge.nodes[k] = sheet.stations[s].node;
+            for (end, s) in normals.iter_mut().zip(ends) {
                 if let Some(group) = joined.groups.get(joined.of[s] as usize) {
-                    edge.ends[k].add(group.normal, fold);
+                    end.add(group.normal, fold);
                 }
             }
         }
     }
-    for (edge, middle) in edges.iter().zip(middles) {
-        let [a, b] = edge.nodes.map(|node| sheet.points[node as usize]);
-        let [t_a, t_b] = edge.ends.map(|end| end.tangent(b - a));
-        sheet.points[middle] = (a + b) * 0.5 + (t_a - t_b) * 0.125;
+    for (k, (edge, ends)) in edges.iter().zip(normals).enumerate() {
+        let [a, b] = edge.map(|node| sheet.points[node as usize]);
+        let [t_a, t_b] = ends.map(|end| end.tangent(b - a));
+        sheet.points[first + k] = (a + b) * 0.5 + (t_a - t_b) * 0.125;
     }
 }

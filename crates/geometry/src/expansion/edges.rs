@@ -72,8 +72,8 @@ pub(super) struct Middles {
     edges: Vec<u32>,
     /// The node in the middle of each edge, [`NONE`] where it is not divided.
     nodes: Vec<NodeId>,
-    /// How many nodes are new.
-    pub nnew: usize,
+    /// The ends of the edges with new nodes, in the order of these, the lower number first.
+    pub ends: Vec<[NodeId; 2]>,
 }
 
 impl Middles {
@@ -91,12 +91,16 @@ impl Middles {
             first,
             edges,
             nodes: vec![NONE; nedge],
-            nnew: 0,
+            ends: Vec::new(),
         };
         this.spread(shells, &owners);
-        for node in this.nodes.iter_mut().filter(|node| **node == NEW) {
-            *node = (nnode + this.nnew) as NodeId;
-            this.nnew += 1;
+        for (pair, &edge) in pairs.iter_mut().zip(&this.edges) {
+            let node = &mut this.nodes[edge as usize];
+            if *node == NEW {
+                *node = (nnode + this.ends.len()) as NodeId;
+                pair.sort_unstable();
+                this.ends.push(*pair);
+            }
         }
         this
     }

@@ -44,6 +44,7 @@ pub struct Joining<'a> {
     /// The largest angle between the normal of a cell and that of the reference cell, in radian, less than π/2.
     pub angle: f64,
     /// Prescribed normals, by cell and node. Cells join them within half a degree; their length does not matter.
+    /// Those of other cells and of nodes that the cell does not have are ignored.
     pub given: &'a BTreeMap<(CellId, NodeId), Vec3>,
 }
 

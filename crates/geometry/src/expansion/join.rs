@@ -11,6 +11,15 @@ const PRESCRIBED: f64 = std::f64::consts::PI / 360.0;
 /// By how much the cosine of an angle may fall short through rounding, so that normals at the very limit join.
 const ROUNDING: f64 = 1e-9;
 
+/// What joins.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Joins {
+    /// Cells of one smooth surface, whatever their thickness, offset and orientation.
+    Surface,
+    /// Cells that have one director.
+    Directors,
+}
+
 /// Stations of one node that have one director.
 #[derive(Clone, Copy)]
 pub(super) struct Group {
@@ -32,7 +41,7 @@ impl Joined {
     pub(super) const NO: u32 = u32::MAX;
 
     /// Joins the stations that have a normal, (E2).
-    pub(super) fn new(sheet: &Sheet<'_>, joining: &Joining<'_>) -> Self {
+    pub(super) fn new(sheet: &Sheet<'_>, joining: &Joining<'_>, joins: Joins) -> Self {
         let ordered = sheet.by_label();
         let nodes = ordered
             .iter()
@@ -48,14 +57,14 @@ impl Joined {
             let stations = at_nodes.row(node).iter().map(|&i| ordered[i as usize]);
             here.clear();
             here.extend(stations.filter(|&s| sheet.stations[s as usize].has_normal()));
-            this.split(&sheet.stations, &mut here, limits);
+            this.split(&sheet.stations, &mut here, limits, joins);
         }
         this
     }
 
     /// Makes groups of these stations of one node, which are in the order of the labels of their cells. The limits are
     /// those for normals of cells and for prescribed ones.
-    fn split(&mut self, stations: &[Station], here: &mut Vec<u32>, limits: [f64; 2]) {
+    fn split(&mut self, stations: &[Station], here: &mut Vec<u32>, limits: [f64; 2], joins: Joins) {
         let is_prescribed = |s: &&u32| stations[**s as usize].prescribed;
         while let Some(&first) = here.iter().find(is_prescribed).or(here.first()) {
             let reference = &stations[first as usize];
@@ -64,15 +73,21 @@ impl Joined {
             let mut sum = Vec3::ZERO;
             here.retain(|&s| {
                 let station = &stations[s as usize];
-                let joins = s == first
-                    || (station.normal.dot(reference.normal) >= limit
-                        && station.thickness == reference.thickness
-                        && station.offset == reference.offset);
-                if joins {
-                    sum += station.normal;
+                let cosine = station.normal.dot(reference.normal);
+                let has_joined = s == first
+                    || match joins {
+                        Joins::Surface => cosine.abs() >= limit,
+                        Joins::Directors => {
+                            cosine >= limit
+                                && station.thickness == reference.thickness
+                                && station.offset == reference.offset
+                        }
+                    };
+                if has_joined {
+                    sum += station.normal * cosine.signum();
                     self.of[s as usize] = number;
                 }
-                !joins
+                !has_joined
             });
             self.groups.push(Group {
                 node: reference.node,

@@ -33,7 +33,8 @@
 //! Their middles lie on the surface of the element. Triangles of three nodes get middles of edges by cubic interpolation
 //! between the normals at both ends, (E3): on a sphere these lie closer to it by two orders of the edge's length than those
 //! of flat facets. On a fold the edge is perpendicular to both normals. Then their surface is that of the element of six
-//! nodes. A quadrilateral of four nodes with a neighbour that has a middle on the common edge is divided in two, or in four,
+//! nodes. The normals at ends are those of the surface, joined whatever the thickness, offset and orientation of cells. A
+//! quadrilateral of four nodes with a neighbour that has a middle on the common edge is divided in two, or in four,
 //! and so on through its neighbours: all divisions match.
 //!
 //! **Limits.** A solid must not turn inside out, which the corners of all solids are checked for.
@@ -57,12 +58,12 @@ mod tests;
 
 pub use error::ExpansionError;
 pub use input::{Joining, Section, ShellCell};
-pub use result::{Director, Expansion, Kept, Knot, ShellSide};
+pub use result::{Director, Expansion, Kept, Knot, Place, ShellSide};
 
 use crate::element::Family;
 use crate::mesh::{Block, CellId, Face, Mesh};
 use edges::Middles;
-use join::Joined;
+use join::{Joined, Joins};
 use sheet::Sheet;
 use shell::Shells;
 
@@ -112,14 +113,17 @@ pub fn expand(
     let middles = Middles::new(mesh.nnode(), &shells.list);
     let mut sheet = Sheet::new(mesh, &shells.list, &middles)?;
     sheet.find_normals(cells.iter().map(|shell| shell.cell), joining)?;
-    if middles.nnew > 0 {
-        let joined = Joined::new(&sheet, joining);
-        let new = mesh.nnode()..mesh.nnode() + middles.nnew;
-        bend::bend(&mut sheet, new, &joined, joining.angle);
+    if !middles.ends.is_empty() {
+        let joined = Joined::new(&sheet, joining, Joins::Surface);
+        let (first, angle) = (mesh.nnode(), joining.angle);
+        bend::bend(&mut sheet, first, &middles.ends, &joined, angle);
     }
     sheet.complete()?;
-    let joined = Joined::new(&sheet, joining);
+    let joined = Joined::new(&sheet, joining, Joins::Directors);
     let mut expansion = build(mesh, &shells, &sheet, &joined)?;
+    let edges = middles.ends.into_iter().map(Place::Edge);
+    let cells = sheet.centres.iter().copied().map(Place::Cell);
+    expansion.places = edges.chain(cells).collect();
     (expansion.free, expansion.free_from) = free_edges(&expansion, &sheet);
     sets::replace(&mut expansion, &shells)?;
     Ok(expansion)
@@ -158,6 +162,7 @@ fn build(
         solids: all,
         corners,
         knots,
+        places: Vec::new(),
         kept,
         patterns: sheet.pieces.iter().map(|piece| piece.pattern).collect(),
         free: Vec::new(),

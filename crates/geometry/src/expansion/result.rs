@@ -57,6 +57,15 @@ pub struct Knot {
     pub directors: Range<usize>,
 }
 
+/// Where a new node of the surface lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In the middle of an edge with these ends, which are nodes of the mesh as given.
+    Edge([NodeId; 2]),
+    /// In the centre of a shell, by its number in the list.
+    Cell(usize),
+}
+
 /// Where cells that are no shells went.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Kept {
@@ -95,6 +104,9 @@ pub struct Expansion {
     pub corners: Vec<[u32; 4]>,
     /// Nodes with more than one director, in order.
     pub knots: Vec<Knot>,
+    /// Where the new nodes of the surface lie, which follow those of the mesh as given. What is given at nodes, such as
+    /// supports, holds at the middle of an edge where it holds at both ends.
+    pub places: Vec<Place>,
     /// Where all other cells went.
     pub kept: Kept,
     pub(super) patterns: Vec<&'static Pattern>,

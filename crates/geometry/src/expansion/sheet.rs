@@ -61,6 +61,8 @@ pub(super) struct Sheet<'a> {
     /// The nodes of the mesh, then those in the middles of edges, then those in the middles of cells.
     pub points: Vec<Vec3>,
     pub stations: Vec<Station>,
+    /// The shells that the nodes in the middles of cells lie in.
+    pub centres: Vec<usize>,
 }
 
 /// The quadratic element with these corners and edges.
@@ -77,12 +79,13 @@ impl<'a> Sheet<'a> {
         middles: &Middles,
     ) -> Result<Self, ExpansionError> {
         let mut points = mesh.points.clone();
-        points.resize(mesh.nnode() + middles.nnew, Vec3::ZERO);
+        points.resize(mesh.nnode() + middles.ends.len(), Vec3::ZERO);
         let mut this = Self {
             mesh,
             pieces: Vec::with_capacity(shells.len()),
             points,
             stations: Vec::with_capacity(4 * shells.len()),
+            centres: Vec::new(),
         };
         for (number, &shell) in shells.iter().enumerate() {
             let is_divided = |k| middles.of(number, k) != NONE;
@@ -122,6 +125,7 @@ impl<'a> Sheet<'a> {
                 None if at < 2 * ncorner => middle(at - ncorner),
                 None => {
                     self.points.push(Vec3::ZERO);
+                    self.centres.push(self.pieces.len());
                     (self.points.len() - 1) as NodeId
                 }
             };

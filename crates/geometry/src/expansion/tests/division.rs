@@ -1,5 +1,6 @@
 //! Cells of several elements next to each other.
 
+use super::super::Place;
 use super::*;
 use std::f64::consts::TAU;
 
@@ -120,5 +121,79 @@ fn flat_triangles_keep_their_edges_straight() {
         // in the parallelogram of a corner the centre is at two thirds of both halves of edges
         let expected = a + ((middle - a) + (other - a)) * (2.0 / 3.0);
         assert!((centre - expected).norm() < 1e-15);
+    }
+}
+
+#[test]
+fn a_jump_of_thickness_or_a_reversed_half_does_not_change_the_surface() {
+    let n = 12;
+    let mesh = grid("tri3", [n, n], |u, v| {
+        let (a, b) = (1.2 * (u - 0.5), v - 0.5);
+        Vec3::new(a.sin() * b.cos(), b.sin(), a.cos() * b.cos())
+    });
+    let plain = with(&mesh, section(0.02, 0.1));
+    let nsurface = mesh.nnode() + plain.places.len();
+    let given = BTreeMap::new();
+    let joining = Joining {
+        angle: Joining::ANGLE,
+        given: &given,
+    };
+    let mut cells = all(&mesh);
+    let half = cells.len() / 2;
+    cells[half..].iter_mut().for_each(|cell| cell.section = 1);
+    let sections = [section(0.02, 0.1), section(0.03, 0.1)];
+    let jump = expand(&mesh, &cells, &sections, &joining).unwrap();
+    assert_is_consistent(&mesh, &jump);
+    let mut reversed = mesh.clone();
+    reversed.blocks[0].nodes[3 * half..]
+        .chunks_mut(3)
+        .for_each(|cell| cell.swap(1, 2));
+    let reversed = with(&reversed, section(0.02, 0.1));
+    for other in [jump, reversed] {
+        // one knot for each node on the line, new ones with them
+        assert_eq!(other.knots.len(), 2 * n as usize + 1);
+        let surfaces = [&plain, &other].map(|e| &e.mesh.points[mesh.nnode()..nsurface]);
+        let (mut a, mut b) = (surfaces[0].to_vec(), surfaces[1].to_vec());
+        let order = |x: &Vec3, y: &Vec3| {
+            let key = |x: &Vec3| x.to_array().map(|x| (x * 1e9).round() as i64);
+            key(x).cmp(&key(y))
+        };
+        a.sort_by(order);
+        b.sort_by(order);
+        for (a, b) in a.iter().zip(&b) {
+            assert!((*a - *b).norm() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn new_nodes_of_the_surface_are_known_by_their_place() {
+    for (element, _) in ELEMENTS {
+        let mesh = grid(element, [3, 2], |u, v| Vec3::new(u, v + 0.2 * u, 0.0));
+        let shell = with(&mesh, section(0.1, 0.0));
+        let expected = match element {
+            // edges, and centres
+            "tri3" => 3 * 3 + 4 * 2 + 6 + 12,
+            "tri6" => 12,
+            "quad8" => 6,
+            _ => 0,
+        };
+        assert_eq!(shell.places.len(), expected, "{element}");
+        let at = |n: usize| shell.mesh.points[n];
+        for (k, &place) in shell.places.iter().enumerate() {
+            let middle = match place {
+                Place::Edge(ends) => {
+                    let [a, b] = ends.map(|n| at(n as usize));
+                    (a + b) * 0.5
+                }
+                Place::Cell(shell) => {
+                    let cell = mesh.cell(all(&mesh)[shell].cell);
+                    let n = mesh.blocks[0].element.ncorner();
+                    let corners = cell[..n].iter().map(|&n| at(n as usize));
+                    corners.sum::<Vec3>() / n as f64
+                }
+            };
+            assert!((at(mesh.nnode() + k) - middle).norm() < 1e-14, "{element}");
+        }
     }
 }
