@@ -148,6 +148,17 @@ impl Followers<'_> {
                             .extend(self.moved_along(layout, &references, nodes, *carrier));
                     }
                 }
+                ConstraintKind::Directors { halves, carrier } => {
+                    elimination.guide(&self.mesh.points, halves.iter().map(|h| h.0), *carrier);
+                    elimination.pull(*carrier);
+                    for &(half, stretch) in halves {
+                        elimination.pull(stretch);
+                        elimination.stretch(*carrier, half, layout.translation(stretch, 0));
+                        ties.free.insert(layout.translation(stretch, 0));
+                    }
+                    let about = (0..3).map(|axis| layout.rotation(*carrier, axis));
+                    ties.free.extend(about);
+                }
                 ConstraintKind::Distributing { carrier, .. }
                 | ConstraintKind::Twist { carrier, .. } => elimination.pull(*carrier),
                 _ => {}
@@ -264,6 +275,14 @@ impl Followers<'_> {
                     mark(&mut ties.followed, *carrier);
                     mark(&mut ties.placed, *carrier);
                     ties.nodes.extend(nodes.iter().map(|n| n.0));
+                }
+                ConstraintKind::Directors { halves, carrier } => {
+                    mark(&mut ties.followed, *carrier);
+                    mark(&mut ties.placed, *carrier);
+                    for &(half, stretch) in halves {
+                        mark(&mut ties.followed, stretch);
+                        ties.nodes.insert(half);
+                    }
                 }
                 ConstraintKind::Distributing { nodes, carrier } => {
                     mark(&mut ties.followed, *carrier);
@@ -536,6 +555,21 @@ impl Followers<'_> {
                             }
                         }
                         rows.push(row);
+                    }
+                }
+                ConstraintKind::Directors { halves, carrier } => {
+                    for &(node, _) in halves {
+                        for axis in 0..layout.ndim() {
+                            let mut row = new();
+                            add(&mut row, layout.node(node, axis), 1.0);
+                            let turn = Turn {
+                                node,
+                                axis,
+                                carrier: *carrier,
+                            };
+                            row.add(Column::Turn(turn), -1.0);
+                            rows.push(row);
+                        }
                     }
                 }
                 ConstraintKind::Equal { nodes, axes } => {

@@ -50,6 +50,8 @@ pub struct Elimination {
     /// Nodes in relations that turn with a carrier and do not follow it along any axis, with their arms at the start;
     /// sorted.
     guided: Vec<((RigidId, NodeId), Vec3)>,
+    /// Those of them whose arms stretch, `R (a_0 + s a_0/|a_0|) − a_0`, with the dof of `s`; sorted.
+    stretching: Vec<((RigidId, NodeId), Dof)>,
     /// Relation of each raw dof, or `NONE`; empty where there is none.
     relation_of: Vec<u32>,
     relations: Vec<Relation>,
@@ -204,6 +206,32 @@ impl Elimination {
         self.guided.extend(nodes.filter_map(arm));
         self.guided.sort_unstable_by_key(|one| one.0);
         self.guided.dedup_by_key(|one| one.0);
+    }
+
+    /// Lets the arm of a guided node stretch by a dof (length).
+    pub fn stretch(&mut self, carrier: RigidId, node: NodeId, by: Dof) {
+        let of = (carrier, node);
+        let at = self.stretching.partition_point(|one| one.0 < of);
+        self.stretching.insert(at, (of, by));
+    }
+
+    /// The dof by which the arm of a node stretches.
+    fn stretching(&self, carrier: RigidId, node: NodeId) -> Option<Dof> {
+        let of = (carrier, node);
+        let at = self
+            .stretching
+            .binary_search_by_key(&of, |one| one.0)
+            .ok()?;
+        self.stretching.get(at).map(|one| one.1)
+    }
+
+    /// An arm at the start with what it has been stretched by, and its direction at the start with the dof of the stretch.
+    fn stretched(&self, start: Vec3, turn: Turn, state: &State) -> (Vec3, Option<(Vec3, Dof)>) {
+        let by = self.stretching(turn.carrier, turn.node);
+        let Some((unit, by)) = start.normalized().zip(by) else {
+            return (start, None);
+        };
+        (start + unit * at(&state.u, by), Some((unit, by)))
     }
 
     /// Says that a carrier moves nodes of deformable bodies: its prescribed motion is felt by elements.
@@ -405,10 +433,18 @@ impl Elimination {
             return Vec3::ZERO;
         };
         let arm = start - body.reference;
+        let turn = Turn {
+            node,
+            axis: 0,
+            carrier,
+        };
+        let (stretched, stretch) = self.stretched(arm, turn, state);
         if state.is_small {
-            return self.rotation(state, layout, carrier).cross(arm);
+            // not as a difference of arms, which would lose the digits of the stretch
+            let longer = stretch.map_or(Vec3::ZERO, |(unit, by)| unit * at(&state.u, by));
+            return self.rotation(state, layout, carrier).cross(arm) + longer;
         }
-        pose.rotation * arm - arm
+        pose.rotation * stretched - arm
     }
 
     /// The rotation vector of a carrier: its increments summed up.
@@ -464,6 +500,9 @@ impl Elimination {
     fn turning(&self, relation: &Relation, layout: &Layout, out: &mut Vec<Dof>) {
         for (turn, _) in &relation.turns {
             self.rotations(turn.carrier, layout, out);
+            if let Some(by) = self.stretching(turn.carrier, turn.node) {
+                self.linear(by, 1.0, &mut |d: Dof, _: f64| out.push(d));
+            }
         }
     }
 
@@ -503,14 +542,40 @@ impl Elimination {
         layout: &Layout,
         out: &mut impl Resolve,
     ) {
-        let row = Mat3::skew(self.arm(state, layout, turn)).rows[turn.axis];
+        let arm = self.arm(state, layout, turn);
+        let row = Mat3::skew(arm).rows[turn.axis];
         for about in (0..3).filter(|&about| about != turn.axis) {
             let rotation = layout.rotation(turn.carrier, about);
             if rotation != NO_DOF {
                 self.linear(rotation, -weight * row[about], out);
             }
         }
+        if let Some((unit, by)) = self.stretch_at(state, turn) {
+            self.linear(by, weight * unit[turn.axis], out);
+        }
         out.turn(turn, weight);
+    }
+
+    /// The direction in which an arm stretches at a state, with the dof of it.
+    fn stretch_at(&self, state: &State, turn: Turn) -> Option<(Vec3, Dof)> {
+        let start = self.guided_arm(turn)?;
+        let (_, stretch) = self.stretched(start, turn, state);
+        let (unit, by) = stretch?;
+        let pose = state.poses.get(turn.carrier as usize)?;
+        Some((
+            if state.is_small {
+                unit
+            } else {
+                pose.rotation * unit
+            },
+            by,
+        ))
+    }
+
+    fn guided_arm(&self, turn: Turn) -> Option<Vec3> {
+        let of = (turn.carrier, turn.node);
+        let k = self.guided.binary_search_by_key(&of, |g| g.0).ok()?;
+        self.guided.get(k).map(|g| g.1)
     }
 
     /// The arm `R a_0` of what follows; `a_0` where rotations are small.
@@ -522,15 +587,11 @@ impl Elimination {
         // a node that follows in some directions only lies elsewhere
         let coupled = self.coupled.binary_search_by_key(&turn, |c| c.0).ok();
         let coupled = coupled.and_then(|k| self.coupled.get(k)).map(|c| c.1);
-        let start = coupled.or_else(|| {
-            let of = (turn.carrier, turn.node);
-            let k = self.guided.binary_search_by_key(&of, |g| g.0).ok()?;
-            self.guided.get(k).map(|g| g.1)
-        });
+        let start = coupled.or_else(|| self.guided_arm(turn));
         let x = state.x.get(turn.node as usize).copied();
         match (start, state.is_small) {
             (Some(start), true) => start,
-            (Some(start), false) => pose.rotation * start,
+            (Some(start), false) => pose.rotation * self.stretched(start, turn, state).0,
             (None, false) => x.unwrap_or(pose.origin) - pose.origin,
             (None, true) => {
                 let moved = |axis| at(&state.u, layout.node(turn.node, axis));
@@ -623,7 +684,7 @@ impl Elimination {
         }
     }
 
-    /// The change of the moments with the arms, (E2); none where rotations are small.
+    /// The change of the moments with the arms, (E2), and of the forces on stretches with them; none where rotations are small.
     fn turning_forces(&self, state: &State, layout: &Layout, out: &mut Expanded) {
         if state.is_small {
             return;
@@ -635,29 +696,34 @@ impl Elimination {
             stiffness,
             ..
         } = out;
+        let mut add = |p: Dof, q: Dof, value: f64| {
+            if value == 0.0 || p == NO_DOF || q == NO_DOF {
+                return;
+            }
+            self.linear(p, 1.0, &mut |p: Dof, a: f64| {
+                self.linear(q, 1.0, &mut |q: Dof, b: f64| {
+                    let (p, q) = (place[p as usize] as usize, place[q as usize] as usize);
+                    if let Some(to) = stiffness.get_mut(p * m + q).filter(|_| p < m && q < m) {
+                        *to += a * b * value;
+                    }
+                });
+            });
+        };
         for &(turn, f) in turns.iter() {
             let single = Vec3::unit(turn.axis) * f;
             let term = Mat3::skew(single) * Mat3::skew(self.arm(state, layout, turn));
+            let rotation = |about| layout.rotation(turn.carrier, about);
             for i in 0..3 {
                 for j in 0..3 {
-                    let (p, q) = (
-                        layout.rotation(turn.carrier, i),
-                        layout.rotation(turn.carrier, j),
-                    );
-                    let value = term.rows[i][j];
-                    if value == 0.0 || p == NO_DOF || q == NO_DOF {
-                        continue;
-                    }
-                    self.linear(p, 1.0, &mut |p: Dof, a: f64| {
-                        self.linear(q, 1.0, &mut |q: Dof, b: f64| {
-                            let (p, q) = (place[p as usize] as usize, place[q as usize] as usize);
-                            if let Some(to) =
-                                stiffness.get_mut(p * m + q).filter(|_| p < m && q < m)
-                            {
-                                *to += a * b * value;
-                            }
-                        });
-                    });
+                    add(rotation(i), rotation(j), term.rows[i][j]);
+                }
+            }
+            if let Some((unit, by)) = self.stretch_at(state, turn) {
+                // f · (dθ × u) ds = dθ · (u × f) ds
+                let moment = unit.cross(single);
+                for i in 0..3 {
+                    add(rotation(i), by, moment[i]);
+                    add(by, rotation(i), moment[i]);
                 }
             }
         }

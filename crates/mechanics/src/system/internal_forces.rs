@@ -1,6 +1,8 @@
 //! Forces of solids on nodes, and heat that they take from nodes.
 
-use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
+use super::{
+    Directors, Dof, DofName, Layout, NodeId, Order, Role, Sink, State, Term, TermError, Work,
+};
 use rayon::prelude::*;
 use signorini_geometry::tensor::Vec3;
 
@@ -15,10 +17,10 @@ pub(super) struct Internal {
     pub heat: Vec<f64>,
 }
 
-/// What all terms within do at the nodes.
+/// What all terms within do at the nodes, and at the unknowns of directors by their ends.
 pub(super) fn internal_forces(
     terms: &[Box<dyn Term>],
-    layout: &Layout,
+    (layout, directors): (&Layout, &Directors),
     state: &State,
 ) -> Result<Internal, TermError> {
     let mut at_nodes = vec![Vec3::ZERO; layout.nnode()];
@@ -54,6 +56,15 @@ pub(super) fn internal_forces(
                         *to += force;
                     }
                 }
+            }
+        }
+    }
+    for director in directors.all() {
+        let force = |node: NodeId| at_nodes.get(node as usize).copied().unwrap_or_default();
+        let [low, high] = director.ends.map(force);
+        for (node, more) in [(director.middle, high + low), (director.half, high - low)] {
+            if let Some(to) = at_nodes.get_mut(node as usize) {
+                *to += more;
             }
         }
     }

@@ -209,7 +209,11 @@ impl System {
         let warm = all().filter_map(|can| can.sampled_heat);
         frame.heat_samples = sampled(cells, warm, |of, out| of.sample_heat(state, cells, out))?;
         if self.wanted.forces {
-            let internal = internal_forces(&self.terms, &self.layout, state)?;
+            let internal = internal_forces(
+                &self.terms,
+                (&self.layout, self.elimination.directors()),
+                state,
+            )?;
             (frame.internal_force, frame.internal_heat) = (internal.forces, internal.heat);
         }
         Ok(frame)

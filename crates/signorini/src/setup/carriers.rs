@@ -9,9 +9,11 @@ use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::model::CarrierPart;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The carriers of a model: references first, then the points of rigid bodies that have none.
+/// The carriers of a model: references first, then the points of rigid bodies that have none, then the frames of joints of shells.
 pub(super) struct Carriers {
     parts: Vec<CarrierPart>,
+    /// The number of the first one of a joint.
+    joints: usize,
     /// References, and every group of a rigid body.
     by_name: BTreeMap<String, RigidId>,
     /// Those that something moves with.
@@ -24,6 +26,7 @@ impl Carriers {
     pub fn new(case: &Case, names: &Names<'_>, found: &mut Diagnostics) -> Self {
         let mut carriers = Self {
             parts: Vec::new(),
+            joints: 0,
             by_name: BTreeMap::new(),
             in_use: BTreeSet::new(),
             heavy: BTreeSet::new(),
@@ -88,6 +91,8 @@ impl Carriers {
                 | ConstraintKind::Cyclic { .. } => {}
             }
         }
+        carriers.joints = carriers.parts.len();
+        carriers.parts.extend(names.shells().joints().carriers());
         carriers
     }
 
@@ -134,8 +139,13 @@ impl Carriers {
         self.parts.clone()
     }
 
+    /// The number of the first one of a joint of shells.
+    pub const fn first_of_joints(&self) -> usize {
+        self.joints
+    }
+
     pub fn infos(&self) -> Vec<ReferenceInfo> {
-        let parts = self.parts.iter().enumerate();
+        let parts = self.parts.iter().take(self.joints).enumerate();
         let info = |(number, part): (usize, &CarrierPart)| ReferenceInfo {
             name: part.name.clone(),
             rigid: number as RigidId,

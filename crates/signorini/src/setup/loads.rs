@@ -80,7 +80,7 @@ impl Context<'_> {
             let place = place.map(|()| Place::Carrier(carrier));
             return Vec::from_iter(place.map(|place| Acting { load: acts, place }));
         }
-        if let Some(all) = self.on_shells(load, acts.as_ref(), found) {
+        if let Some(all) = self.on_shells(load, &acts, found) {
             return all;
         }
         let on_masses = self.on_masses(load, &acts);
@@ -97,7 +97,7 @@ impl Context<'_> {
     fn on_shells(
         &self,
         load: &case::Load,
-        acts: &dyn Load,
+        acts: &Arc<dyn Load>,
         found: &mut Diagnostics,
     ) -> Option<Vec<Acting>> {
         let shells = self.names.shells();
@@ -116,13 +116,25 @@ impl Context<'_> {
             ));
         }
         let [force, moment] = acts.resultant(1.0)?;
-        if force != Vec3::ZERO || acts_by_mass(acts) {
+        if force != Vec3::ZERO || acts_by_mass(acts.as_ref()) {
             return None;
         }
-        let nodes = self.names.nodes(&load.on, found).unwrap_or_default();
+        let mut nodes = self.names.nodes(&load.on, found).unwrap_or_default();
+        let frame = |node: &NodeId| {
+            let first = self.carriers.first_of_joints();
+            shells.joints().frame_of(*node, first)
+        };
+        let frames: Vec<RigidId> = nodes.iter().filter_map(frame).collect();
+        let on_frame = |carrier| Acting {
+            load: Arc::clone(acts),
+            place: Place::Carrier(carrier),
+        };
+        let on_frames = frames.into_iter().map(on_frame);
+        nodes.retain(|node| frame(node).is_none());
         let label = |node| self.names.label(node);
-        let acting = moments(shells, (load, moment), &nodes, label, found);
-        Some(acting.into_iter().collect())
+        let is_left = !nodes.is_empty();
+        let acting = is_left.then(|| moments(shells, (load, moment), &nodes, label, found));
+        Some(acting.flatten().into_iter().chain(on_frames).collect())
     }
 
     /// A load by mass on masses that are not of bodies that deform: on all, on those given to the named set, or at its nodes

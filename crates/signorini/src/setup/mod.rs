@@ -338,6 +338,9 @@ fn parts<'a>(
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, cuts, found);
+    let joints = names.shells().joints();
+    let joints = joints.constraints(carriers.first_of_joints());
+    parts.constraints.extend(joints);
     let newton = &case.solver.newton;
     parts.gap_tol = newton.gap_tol;
     parts.traction_tol = parts.traction_tol.max(0.1 * newton.force_tol);

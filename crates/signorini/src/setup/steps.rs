@@ -162,20 +162,19 @@ impl Builder<'_> {
             if free.u.is_empty() && !turns {
                 continue;
             }
-            if let Some(target) = self.target(&free.on, turns, &free.place, found) {
-                let components = picked(&free.u, &free.rot);
+            let components = picked(&free.u, &free.rot);
+            for target in self.targets(&free.on, turns, &free.place, found) {
+                let components = of_target(&target, &components, |c| *c);
                 changes.push(Change::Release(target, components));
             }
         }
         for fix in &step.fixes {
-            let mut rot = fix.rot;
-            if self.holds_rotations(number, fix, rotations, found) {
-                rot = Directions::default();
-            }
-            if let Some(target) = self.target(&fix.on, !rot.is_empty(), &fix.place, found) {
-                let hold = |c| (c, Motion::Hold);
-                let components = picked(&fix.u, &rot).into_iter().map(hold);
-                changes.push(Change::Prescribe(target, components.collect()));
+            let turns = !fix.rot.is_empty() && !self.holds_rotations(number, fix, rotations, found);
+            let components = picked(&fix.u, &fix.rot);
+            for target in self.targets(&fix.on, turns, &fix.place, found) {
+                let motions = of_target(&target, &components, |c| *c).into_iter();
+                let motions = motions.map(|c| (c, Motion::Hold)).collect();
+                changes.push(Change::Prescribe(target, motions));
             }
         }
         for part in &step.moves {
@@ -184,11 +183,12 @@ impl Builder<'_> {
                 changes.extend(from_global(from, step.duration, &part.place, found));
                 continue;
             }
-            if let Some(target) = self.target(&part.on, turns, &part.place, found) {
-                let courses = part.u.iter().chain(&part.rot).enumerate();
-                let motions =
-                    courses.filter_map(|(c, m)| Some((c, self.motion(step, m.as_ref()?))));
-                changes.push(Change::Prescribe(target, motions.collect()));
+            let courses = part.u.iter().chain(&part.rot).enumerate();
+            let motions = courses.filter_map(|(c, m)| Some((c, self.motion(step, m.as_ref()?))));
+            let motions: Vec<(usize, Motion)> = motions.collect();
+            for target in self.targets(&part.on, turns, &part.place, found) {
+                let motions = of_target(&target, &motions, |motion| motion.0);
+                changes.push(Change::Prescribe(target, motions));
             }
         }
         changes
@@ -208,7 +208,8 @@ impl Builder<'_> {
         }
         // names that are not there are reported where displacements are held
         let nodes = self.names.nodes(&fix.on, &mut Diagnostics::new());
-        let nodes = nodes.unwrap_or_default();
+        let mut nodes = nodes.unwrap_or_default();
+        nodes.retain(|node| shells.joints().frame_of(*node, 0).is_none());
         if nodes
             .iter()
             .any(|&node| shells.directors_at(node).is_empty())
@@ -356,25 +357,34 @@ impl Builder<'_> {
         self.case.solver.on_trouble.contains(&Remedy::Cut)
     }
 
-    /// What a support or motion is applied to; nodes cannot turn.
-    fn target(
+    /// What a support or motion is applied to: nodes, which cannot turn where `turns` asks for it, and the frames of joints of shells.
+    fn targets(
         &self,
         on: &Name,
         turns: bool,
         place: &Place,
         found: &mut Diagnostics,
-    ) -> Option<Target> {
+    ) -> Vec<Target> {
         if let Some(carrier) = self.carriers.get(on) {
             if !self.carriers.moves_something(carrier) {
                 found.push(idle(on));
             }
-            return Some(Target::Rigid(carrier));
+            return vec![Target::Rigid(carrier)];
         }
-        let nodes = self.names.nodes(on, found)?;
-        if turns {
+        let mut nodes = self.names.nodes(on, found).unwrap_or_default();
+        let frame = |node: &NodeId| {
+            let joints = self.names.shells().joints();
+            joints.frame_of(*node, self.carriers.first_of_joints())
+        };
+        let mut targets: Vec<Target> = nodes.iter().filter_map(frame).map(Target::Rigid).collect();
+        nodes.retain(|node| frame(node).is_none());
+        if turns && !nodes.is_empty() {
             found.push(no_rotations(on, place));
         }
-        Some(Target::Nodes(nodes))
+        if !nodes.is_empty() {
+            targets.insert(0, Target::Nodes(nodes));
+        }
+        targets
     }
 
     fn amplitude(&self, name: &Name) -> Option<&Amplitude> {
@@ -495,6 +505,12 @@ fn runs_on(change: &Change) -> bool {
         Change::Prescribe(_, motions) => motions.iter().any(|(_, motion)| motion.goes_on()),
         Change::Release(..) => false,
     }
+}
+
+/// Those components that a target has: nodes do not turn.
+fn of_target<T: Clone>(target: &Target, all: &[T], component: impl Fn(&T) -> usize) -> Vec<T> {
+    let has = |one: &&T| matches!(target, Target::Rigid(_)) || component(one) < 3;
+    all.iter().filter(has).cloned().collect()
 }
 
 fn picked(u: &Directions, rot: &Directions) -> Vec<usize> {

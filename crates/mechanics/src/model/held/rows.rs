@@ -75,6 +75,13 @@ impl Held<'_> {
                         }
                     }
                 }
+                ConstraintKind::Directors { halves, carrier } => {
+                    for &(half, stretch) in halves {
+                        self.turns_with(half, *carrier);
+                        // what is stretched resists
+                        self.equation(&[(Unknown::Carrier(stretch, 0), 1.0)]);
+                    }
+                }
                 ConstraintKind::Distributing { nodes, carrier } => {
                     self.distributing(nodes, *carrier);
                 }
@@ -251,6 +258,20 @@ impl Held<'_> {
             (other, self.moves(other, at, along * -1.0)),
         ];
         self.rows.push(row);
+    }
+
+    /// Half a director turns with a carrier.
+    fn turns_with(&mut self, half: NodeId, carrier: RigidId) {
+        let (Some(unit), Some(other)) = (self.unit(half), self.carrier(carrier)) else {
+            return;
+        };
+        for axis in (0..3).map(Vec3::unit) {
+            let row = vec![
+                (unit, self.moves_node(unit, half, axis)),
+                (other, self.moves_node(other, half, axis * -1.0)),
+            ];
+            self.rows.push(row);
+        }
     }
 
     /// The carrier has the mean displacement of the nodes and their mean rotation: `Σ w (u − u_c) = 0` and

@@ -336,6 +336,15 @@ pub enum ConstraintKind {
         /// What they follow.
         carrier: RigidId,
     },
+    /// Directors turn with a carrier: half the difference of the displacements of their ends is `R (1 + a) D − D`, with half the
+    /// thickness vector `D`, by which the node that carries it lies away from the carrier.
+    Directors {
+        /// The nodes that carry half the differences, each with a carrier without a place whose displacement along x is the
+        /// stretch, `a |D|`.
+        halves: Vec<(NodeId, RigidId)>,
+        /// What they turn with.
+        carrier: RigidId,
+    },
     /// The carrier follows the weighted mean motion of the nodes, which stay free to deform.
     Distributing {
         /// The nodes with positive weights.
@@ -385,6 +394,7 @@ impl ConstraintKind {
             }
             Self::Distributing { nodes, .. } => nodes.iter().map(|(node, _)| *node).collect(),
             Self::KinematicAlong { nodes, .. } => nodes.iter().map(|(node, _)| *node).collect(),
+            Self::Directors { halves, .. } => halves.iter().map(|(node, _)| *node).collect(),
             Self::Distance { nodes, .. } => nodes.to_vec(),
             Self::Equal { nodes, .. }
             | Self::Kinematic { nodes, .. }

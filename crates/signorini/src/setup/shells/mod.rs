@@ -14,6 +14,8 @@ mod rotations;
 pub(super) use loads::{gradients, line_load, moments, no_rotations};
 pub(super) use rotations::Rotations;
 
+use joints::Joints;
+
 use super::names::Names;
 use super::quoted;
 use signorini_geometry::expansion::{
@@ -36,11 +38,11 @@ pub(super) struct Shells {
     first: usize,
     /// The node of the surface behind each node from there on.
     behind: Vec<NodeId>,
+    joints: Joints,
 }
 
 /// The shells of a body.
 struct OfBody<'a> {
-    body: &'a Body,
     shell: &'a Shell,
     cells: Vec<CellId>,
 }
@@ -68,7 +70,7 @@ impl Shells {
         let of_bodies = shells.into_iter().filter_map(|(body, shell)| {
             let cells = surfaces(body, &names, &mesh, found)?;
             lacks_thickness(body, shell, (&names, &cells, &at_nodes), found)?;
-            Some(OfBody { body, shell, cells })
+            Some(OfBody { shell, cells })
         });
         let of_bodies: Vec<OfBody<'_>> = of_bodies.collect();
         if found.has_errors() {
@@ -86,7 +88,7 @@ impl Shells {
             .filter_map(|(&cell, number)| Some((given.cell_label(cell)?, number)));
         let by_label = labels.collect();
         let mut mesh = std::mem::take(&mut expansion.mesh);
-        joints::place(&expansion, &mut mesh);
+        let joints = Joints::new(&mut expansion, &mut mesh);
         let first = given.nnode();
         let mut behind: Vec<NodeId> = (first..mesh.nnode()).map(|node| node as NodeId).collect();
         for director in &expansion.directors {
@@ -107,8 +109,14 @@ impl Shells {
             by_label,
             first,
             behind,
+            joints,
         };
         (mesh, shells)
+    }
+
+    /// Where shells meet that have directors of their own.
+    pub const fn joints(&self) -> &Joints {
+        &self.joints
     }
 
     /// Whether there are none.
