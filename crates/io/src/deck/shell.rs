@@ -29,8 +29,11 @@ impl Translation<'_> {
         !self.shell_nodes.is_empty() && labels.any(|label| self.shell_nodes.contains(&label))
     }
 
-    /// These nodes, those of shells first; sets that have both kinds, node by node.
-    pub fn shells_apart(&self, targets: Vec<Target>) -> [Vec<Target>; 2] {
+    /// These nodes, those of shells apart where rotations are meant, too; sets that have both kinds, node by node.
+    pub fn shells_apart(&self, targets: Vec<Target>, turns: bool) -> [Vec<Target>; 2] {
+        if !turns || !self.has_shell_nodes(&targets) {
+            return [Vec::new(), targets];
+        }
         let [mut shells, mut others] = [Vec::new(), Vec::new()];
         for target in targets {
             let labels = self.labels(&target);
@@ -47,6 +50,25 @@ impl Translation<'_> {
             }
         }
         [shells, others]
+    }
+
+    /// Refuses rotations about local axes at nodes of shells.
+    pub fn no_local_rotations(&mut self, labels: &[u64], turns: bool, place: &Place) {
+        let of_shell = |label: &&u64| self.shell_nodes.contains(label);
+        if let Some(label) = labels.iter().find(of_shell).filter(|_| turns) {
+            let text = format!(
+                "rotations of node {label}, of a shell, along local axes are not supported"
+            );
+            let remark = "leave the node out of *TRANSFORM";
+            self.error(&codes::NOT_BUILT, text, place, remark);
+        }
+    }
+
+    /// Refuses motions that turn nodes of shells.
+    pub fn no_turning(&mut self, place: &Place) {
+        let text = "rotations of shells can be held, not yet moved";
+        let remark = "zero is; or turn the node of a rigid body or coupling that holds them";
+        self.error(&codes::NOT_BUILT, text, place, remark);
     }
 
     /// The bodies of *SHELL SECTION.

@@ -527,7 +527,8 @@ impl Translation<'_> {
             let labels = turned.iter().flat_map(|target| self.labels(target));
             let (labels, others): (Vec<u64>, Vec<u64>) =
                 labels.partition(|label| self.axes.contains_key(label));
-            self.no_local_rotations(&labels, &line);
+            let turns = line.components.iter().any(|component| *component >= 3);
+            self.no_local_rotations(&labels, turns, &line.place);
             for label in labels {
                 let of_node = local.entry(label).or_default();
                 for &component in line.components.iter().filter(|c| **c < 3) {
@@ -542,30 +543,13 @@ impl Translation<'_> {
             for carrier in carriers {
                 self.set_course(&[carrier], &line, number, sudden, standing, step);
             }
-            let turns = line.components.iter().any(|component| *component >= 3);
-            let parts = match turns && self.has_shell_nodes(&nodes) {
-                true => self.shells_apart(nodes),
-                false => [Vec::new(), nodes],
-            };
+            let parts = self.shells_apart(nodes, turns);
             for nodes in parts.iter().filter(|nodes| !nodes.is_empty()) {
                 self.set_course(nodes, &line, number, sudden, standing, step);
             }
         }
         for (label, components) in local {
             self.set_local(label, components, sudden, standing, step);
-        }
-    }
-
-    /// Refuses rotations about local axes at nodes of shells.
-    fn no_local_rotations(&mut self, labels: &[u64], line: &Line) {
-        let turns = line.components.iter().any(|component| *component >= 3);
-        let of_shell = |label: &&u64| self.shell_nodes.contains(label);
-        if let Some(label) = labels.iter().find(of_shell).filter(|_| turns) {
-            let text = format!(
-                "rotations of node {label}, of a shell, along local axes are not supported"
-            );
-            let remark = "leave the node out of *TRANSFORM";
-            self.error(&codes::NOT_BUILT, text, &line.place, remark);
         }
     }
 
@@ -606,9 +590,7 @@ impl Translation<'_> {
             *moved |= !stays;
         }
         if !stays && !is_carried && components.iter().any(|component| *component >= 3) {
-            let text = "rotations of shells can be held, not yet moved";
-            let remark = "zero is; or turn the node of a rigid body or coupling that holds them";
-            self.error(&codes::NOT_BUILT, text, &line.place, remark);
+            self.no_turning(&line.place);
             return;
         }
         if stays {

@@ -80,6 +80,17 @@ pub fn read_mesh(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshEr
     }
 }
 
+/// The same for a case with shells: surfaces of a deck name their sides, as [`inp::read_shells`] has them.
+///
+/// # Errors
+/// Those of [`read_mesh`].
+pub fn read_mesh_of_shells(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    match name.to_lowercase().ends_with(".inp") {
+        true => inp::read_shells(name, bytes),
+        false => read_mesh(name, bytes),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

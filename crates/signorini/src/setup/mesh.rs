@@ -72,7 +72,10 @@ pub fn read_mesh_of(case: &Case, folder: &Path) -> Result<(Mesh, Diagnostics), D
                 .help("paths are relative to the case")
             })?;
             let name = file.display().to_string();
-            let read = readers::read_mesh(&name, &bytes);
+            let read = match has_shells(case) {
+                true => readers::read_mesh_of_shells(&name, &bytes),
+                false => readers::read_mesh(&name, &bytes),
+            };
             let (mesh, notes) = read.map_err(|error| {
                 Diagnostic::error(&codes::BAD_MESH, error.to_string()).at(&path.place, "this mesh")
             })?;
@@ -103,7 +106,7 @@ pub fn judge_mesh_of(case: &Case, mesh: &Mesh) -> Result<Diagnostics, Diagnostic
         MeshSource::Inline { place, .. } => place,
     };
     let mut found = Diagnostics::new();
-    let issues = match case.bodies.iter().any(|body| body.shell.is_some()) {
+    let issues = match has_shells(case) {
         true => readers::validate_as(mesh, false),
         false => readers::validate(mesh),
     };
@@ -122,6 +125,10 @@ pub fn judge_mesh_of(case: &Case, mesh: &Mesh) -> Result<Diagnostics, Diagnostic
         return Err(found);
     }
     Ok(found)
+}
+
+fn has_shells(case: &Case) -> bool {
+    case.bodies.iter().any(|body| body.shell.is_some())
 }
 
 /// The group of a body that an element belongs to.

@@ -335,6 +335,32 @@ fn next_to_solids_a_section_makes_the_shell() {
 }
 
 #[test]
+fn a_mesh_alone_has_sides_of_shells_where_a_case_has_shells() {
+    use crate::readers::{read_mesh, read_mesh_of_shells};
+    let surfaces = "*SURFACE, NAME=A\nSHEET, SNEG\n*SURFACE, NAME=B\nSHEET, S2\n";
+    let faces = |deck: &str, name: &str| -> Vec<u8> {
+        let (mesh, _) = read_mesh_of_shells("job.inp", deck.as_bytes()).unwrap();
+        mesh.sets[name].faces.iter().map(|face| face.side).collect()
+    };
+    for deck in [
+        on_cube(surfaces),
+        sheet(surfaces),
+        sheet_of("S4R", "", surfaces),
+    ] {
+        assert_eq!((faces(&deck, "A"), faces(&deck, "B")), (vec![0], vec![1]));
+    }
+    // next to solids and without a section, and in cases without shells, they are faces of solids
+    let bare = on_cube(surfaces).replace(SECTION, "");
+    assert!(faces(&bare, "A").is_empty());
+    let (mesh, _) = read_mesh("job.inp", on_cube(surfaces).as_bytes()).unwrap();
+    assert_eq!(
+        (mesh.sets["A"].faces.len(), mesh.sets["A"].cells.len()),
+        (0, 1)
+    );
+    assert!(read_mesh("job.inp", sheet(surfaces).as_bytes()).is_err());
+}
+
+#[test]
 fn rotations_of_shells_are_held_and_not_moved() {
     let cards = step("*BOUNDARY\nLEFT, ENCASTRE\nRIGHT, 4, 5\n2, 3, 6\n5, YSYMM\n");
     let case = case(&sheet(&cards));

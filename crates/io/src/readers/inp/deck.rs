@@ -1,5 +1,6 @@
 //! What a deck says, card by card, before any number or name in it is looked up.
 
+use super::Part;
 use super::card::{Card, Fields, Parameter, at_most, key, not_a_number, real, text, whole};
 use super::definition::{Definition, Family, Region, Side};
 use super::directory::ElementCard;
@@ -83,8 +84,8 @@ pub(super) struct Deck {
     pub notes: Vec<String>,
 }
 
-/// Reads all cards, and keeps those that are no part of the mesh where `whole` says so.
-pub(super) fn read(files: &Files<'_>, whole: bool) -> Result<Deck> {
+/// Reads all cards, and keeps those that are no part of the mesh where `part` says so.
+pub(super) fn read(files: &Files<'_>, part: Part) -> Result<Deck> {
     let mut reader = Reader {
         lines: files.lines(),
         deck: Deck {
@@ -95,7 +96,8 @@ pub(super) fn read(files: &Files<'_>, whole: bool) -> Result<Deck> {
             statements: Vec::new(),
             notes: Vec::new(),
         },
-        whole,
+        whole: part == Part::Whole,
+        part,
         kinds: BTreeMap::new(),
         parts: BTreeMap::new(),
         instances: BTreeSet::new(),
@@ -114,8 +116,10 @@ struct Reader<'f> {
     kinds: BTreeMap<String, u32>,
     parts: BTreeMap<String, usize>,
     instances: BTreeSet<String>,
-    /// Whether statements are kept.
+    /// Whether the whole deck counts.
     whole: bool,
+    /// Which statements are kept.
+    part: Part,
     /// The scope that cards fill.
     here: usize,
     /// The part or instance that is open: its keyword and its line.
@@ -230,7 +234,7 @@ impl Reader<'_> {
                 }
             }
         }
-        if self.whole && !["ENDPART", "ENDINSTANCE", "INCLUDE"].contains(&card.keyword.as_str()) {
+        if self.part.keeps(&card.keyword) {
             let statement = Statement::read(card, self.here, &mut self.lines);
             self.deck.statements.push(statement);
         }

@@ -66,9 +66,41 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> 
 /// # Errors
 /// Those of [`read`].
 pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
-    let whole = read_all(fs, name, bytes, false)?;
+    let whole = read_all(fs, name, bytes, Part::Mesh)?;
     Ok((whole.mesh, whole.notes))
 }
+
+/// As [`read`], for a case with shells: sides of elements that a *SHELL SECTION names are those of shells, see
+/// [`Directory::shells`]; where nothing but shells is in the mesh and no section, those of all.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_shells(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    let whole = read_all(&RealFs, name, bytes, Part::MeshOfShells)?;
+    Ok((whole.mesh, whole.notes))
+}
+
+/// What of a deck is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Mesh,
+    MeshOfShells,
+    Whole,
+}
+
+impl Part {
+    /// Whether a card that is not of the mesh is kept.
+    fn keeps(self, keyword: &str) -> bool {
+        match self {
+            Self::Mesh => false,
+            Self::MeshOfShells => keyword == SHELL_SECTION,
+            Self::Whole => !["ENDPART", "ENDINSTANCE", "INCLUDE"].contains(&keyword),
+        }
+    }
+}
+
+/// The card that makes shells of elements.
+const SHELL_SECTION: &str = "SHELLSECTION";
 
 /// A real number as Fortran writes it; finite.
 #[must_use]
@@ -94,10 +126,10 @@ pub struct Deck {
 /// # Errors
 /// Those of [`read`]; what other cards say is not looked at.
 pub fn read_deck(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<Deck, MeshError> {
-    read_all(fs, name, bytes, true)
+    read_all(fs, name, bytes, Part::Whole)
 }
 
-fn read_all(fs: &dyn Fs, name: &str, bytes: &[u8], whole: bool) -> Result<Deck, MeshError> {
+fn read_all(fs: &dyn Fs, name: &str, bytes: &[u8], part: Part) -> Result<Deck, MeshError> {
     let is_blank = |b: &u8| b.is_ascii_whitespace();
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if text.iter().all(is_blank) {
@@ -106,9 +138,9 @@ fn read_all(fs: &dyn Fs, name: &str, bytes: &[u8], whole: bool) -> Result<Deck, 
         });
     }
     let files = Files::open(fs, name, bytes)?;
-    let mut cards = deck::read(&files, whole)?;
+    let mut cards = deck::read(&files, part)?;
     let statements = std::mem::take(&mut cards.statements);
-    let assembled = assemble::assemble(&files, cards, &statements, whole)?;
+    let assembled = assemble::assemble(&files, cards, &statements, part)?;
     Ok(Deck {
         mesh: assembled.mesh,
         notes: assembled.notes,

@@ -6,6 +6,7 @@ mod sets;
 mod shells;
 mod space;
 
+use super::Part;
 use super::card::key;
 use super::deck::{Deck, Scope};
 use super::definition::Family;
@@ -46,8 +47,9 @@ pub(super) fn assemble(
     files: &Files<'_>,
     deck: Deck,
     statements: &[Statement],
-    whole: bool,
+    part: Part,
 ) -> Result<Assembled> {
+    let whole = part == Part::Whole;
     let nbyte = files.nbyte() as u64;
     let mut assembly = Assembly {
         files,
@@ -74,7 +76,7 @@ pub(super) fn assemble(
     }
     assembly.judge_kinds(whole)?;
     assembly.define_all(Family::Cells)?;
-    assembly.find_shells(statements);
+    assembly.find_shells(statements, part);
     for family in [Family::Nodes, Family::Faces, Family::Points] {
         assembly.define_all(family)?;
     }

@@ -8,6 +8,7 @@ use crate::readers::MeshError;
 use crate::readers::inp::definition::{Definition, Family, Side};
 use crate::readers::inp::kind::Role;
 use crate::readers::inp::statement::Statement;
+use crate::readers::inp::{Part, SHELL_SECTION};
 use signorini_geometry::mesh::{CellId, Face};
 
 /// The face on the negative side of a shell, from 0.
@@ -17,11 +18,16 @@ const POSITIVE: u8 = 1;
 
 impl Assembly<'_> {
     /// Finds the shells, once element sets are known.
-    pub(super) fn find_shells(&mut self, statements: &[Statement]) {
-        let mut cells: Vec<CellId> = Vec::new();
+    pub(super) fn find_shells(&mut self, statements: &[Statement], part: Part) {
+        let mut cells: Vec<CellId> = match part {
+            Part::MeshOfShells if statements.is_empty() && self.mesh.dim() == 2 => {
+                self.mesh.cells(2).collect()
+            }
+            _ => Vec::new(),
+        };
         for card in statements
             .iter()
-            .filter(|card| card.keyword == "SHELLSECTION")
+            .filter(|card| card.keyword == SHELL_SECTION)
         {
             let Some(name) = card.peek("ELSET") else {
                 continue;
