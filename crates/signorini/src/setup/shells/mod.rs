@@ -9,6 +9,7 @@
 
 mod joints;
 mod loads;
+mod mirrors;
 mod rotations;
 
 pub(super) use loads::{gradients, line_load, moments, no_rotations};
@@ -22,6 +23,7 @@ use signorini_geometry::expansion::{
     self, Expansion, ExpansionError, Joining, Section, ShellCell, ShellSide, expand,
 };
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
+use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{Body, Case, Shell, Thickness};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::system::Director;
@@ -76,8 +78,8 @@ impl Shells {
         if found.has_errors() {
             return None;
         }
+        let expansion = solids((case, &names), &of_bodies, &mesh, &at_nodes, found)?;
         drop(names);
-        let expansion = solids(&of_bodies, &mesh, &at_nodes, found)?;
         Some(Self::of(expansion, &of_bodies, mesh))
     }
 
@@ -229,6 +231,7 @@ fn lacks_thickness(
 
 /// The solids of all shells.
 fn solids(
+    (case, names): (&Case, &Names<'_>),
     of_bodies: &[OfBody<'_>],
     mesh: &Mesh,
     at_nodes: &[f64],
@@ -255,11 +258,19 @@ fn solids(
     let angles = of_bodies
         .iter()
         .map(|of| of.shell.normals.value.to_radians());
-    let joining = Joining {
-        angle: angles.fold(f64::INFINITY, f64::min),
-        given: &BTreeMap::new(),
+    let angle = angles.fold(f64::INFINITY, f64::min);
+    let expanded = |given: &BTreeMap<(CellId, NodeId), Vec3>| {
+        let joining = Joining { angle, given };
+        expand(mesh, &cells, &sections, &joining)
     };
-    match expand(mesh, &cells, &sections, &joining) {
+    let expansion = expanded(&BTreeMap::new()).and_then(|expansion| {
+        let mirrored = mirrors::normals(case, names, mesh, &cells, &expansion);
+        match mirrored.is_empty() {
+            true => Ok(expansion),
+            false => expanded(&mirrored),
+        }
+    });
+    match expansion {
         Ok(expansion) => Some(expansion),
         Err(error) => {
             found.push(refused(&error, of_bodies));
