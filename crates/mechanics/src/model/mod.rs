@@ -62,7 +62,7 @@ pub use summary::{
 use crate::contact::Interface;
 use crate::material::Material;
 use crate::solve::Step;
-use crate::system::{Directors, Layout, System, Term};
+use crate::system::{Directors, Elimination, Layout, System, Term};
 use bodies::{between, nodes_by_body, owners};
 use constraints::Followers;
 use contact::{Sides, Source};
@@ -234,7 +234,7 @@ impl Model {
                 layout,
                 elimination: context.elimination.clone(),
                 heavy: context.heavy.clone(),
-                coordinates: reference.iter().map(|x| x.to_array()).collect(),
+                coordinates: coordinates(&context.elimination, &reference),
                 reference,
                 terms,
                 body: body_of_node,
@@ -249,6 +249,15 @@ impl Model {
             locking,
             held_by_contact,
         })
+    }
+}
+
+/// Where the nodes are, for solvers by multigrid. Without places there is none: no hierarchy takes over the bending of thin bodies, and
+/// the graph of their equations is that of a surface, which a direct solver factorizes fast.
+fn coordinates(elimination: &Elimination, reference: &[Vec3]) -> Vec<[f64; 3]> {
+    match elimination.directors().all() {
+        [] => reference.iter().map(|x| x.to_array()).collect(),
+        _ => Vec::new(),
     }
 }
 

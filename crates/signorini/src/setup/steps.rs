@@ -9,7 +9,7 @@ use super::loads::{self, Coupling};
 use super::names::Names;
 use super::nonlinear::nonlinear;
 use super::quoted;
-use super::shells::{Rotations, gradients, no_rotations};
+use super::shells::{Rotations, no_rotations};
 use crate::own::Own;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_io::case::{
@@ -209,6 +209,7 @@ impl Builder<'_> {
         // names that are not there are reported where displacements are held
         let nodes = self.names.nodes(&fix.on, &mut Diagnostics::new());
         let mut nodes = nodes.unwrap_or_default();
+        shells.add_between(&mut nodes);
         nodes.retain(|node| shells.joints().frame_of(*node, 0).is_none());
         if nodes
             .iter()
@@ -274,39 +275,36 @@ impl Builder<'_> {
                 }
             };
             let nodes = self.names.nodes(&part.on, found).unwrap_or_default();
-            let gradient = part.gradient.as_ref();
-            for (node, more) in gradients(
-                self.names.shells(),
-                &nodes,
-                gradient.map_or(0.0, |gradient| gradient.value),
-            ) {
-                let course = match &course {
-                    course if more == 0.0 => course.clone(),
-                    Motion::Ramp(to) => Motion::Ramp(to + more),
-                    Motion::Table(rows) if let [[time, to]] = rows[..] => {
-                        Motion::Table(vec![[time, to + more]])
-                    }
-                    _ => {
-                        let text = "a temperature with a course and a gradient";
-                        let one = Diagnostic::error(&codes::NOT_BUILT, text);
-                        found.push(
-                            one.at(&part.place, "leave the gradient away, or write a number"),
-                        );
-                        break;
-                    }
-                };
-                temperatures.push((node, course));
-            }
+            let gradient = part
+                .gradient
+                .as_ref()
+                .map_or(0.0, |gradient| gradient.value);
+            temperatures.extend(
+                nodes
+                    .into_iter()
+                    .map(|node| (node, course.clone(), gradient)),
+            );
         }
-        temperatures
+        if let Some(all) = self.names.shells().spread_courses(temperatures) {
+            return all;
+        }
+        let text = "a temperature of shells with a course that is no number changes from node to node, or along the normal";
+        let place = step.temperatures.first().map(|one| &one.place);
+        let one = Diagnostic::error(&codes::NOT_BUILT, text);
+        found.push(match place {
+            Some(place) => one.at(place, "write numbers, which are reached linearly"),
+            None => one,
+        });
+        Vec::new()
     }
 
     /// Nodes whose temperatures are set free.
     fn freed_temperatures(&self, step: &Step, found: &mut Diagnostics) -> Vec<NodeId> {
         let freed = step.frees.iter().filter(|free| free.temperature);
         let nodes = freed.filter_map(|free| self.names.nodes(&free.on, found));
-        let with_faces = |nodes: Vec<NodeId>| gradients(self.names.shells(), &nodes, 0.0);
-        let nodes = nodes.flat_map(with_faces);
+        let nodes = nodes.flatten().map(|node| (node, Motion::Hold, 0.0));
+        let all = self.names.shells().spread_courses(nodes.collect());
+        let nodes = all.into_iter().flatten();
         nodes.map(|(node, _)| node).collect()
     }
 
@@ -372,6 +370,7 @@ impl Builder<'_> {
             return vec![Target::Rigid(carrier)];
         }
         let mut nodes = self.names.nodes(on, found).unwrap_or_default();
+        self.names.shells().add_between(&mut nodes);
         let frame = |node: &NodeId| {
             let joints = self.names.shells().joints();
             joints.frame_of(*node, self.carriers.first_of_joints())

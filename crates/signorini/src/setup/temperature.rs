@@ -2,10 +2,10 @@
 
 use super::heat;
 use super::names::Names;
-use super::shells::gradients;
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{Case, Expansion, Material};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use std::collections::HashMap;
 
 /// The temperature of every node at the start, and that of all nodes that nothing else is said of; nothing where the case knows no temperatures.
 ///
@@ -76,14 +76,18 @@ pub(super) fn at_start<'a>(
         }
     };
     let mut field = vec![start; mesh.nnode()];
+    let mut gradients = HashMap::new();
     for one in &case.initial_temperatures {
-        let nodes = names.nodes(&one.on, found).unwrap_or_default();
-        for (node, more) in gradients(names.shells(), &nodes, one.gradient.unwrap_or_default()) {
+        for node in names.nodes(&one.on, found).unwrap_or_default() {
             if let Some(at) = field.get_mut(node as usize) {
-                *at = one.temperature + more;
+                *at = one.temperature;
+            }
+            if let Some(gradient) = one.gradient {
+                gradients.insert(node, gradient);
             }
         }
     }
+    names.shells().spread(&mut field, &gradients);
     (field, Some(start))
 }
 

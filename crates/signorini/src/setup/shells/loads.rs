@@ -1,4 +1,4 @@
-//! What acts on shells: moments at nodes, forces along edges, temperatures through the thickness.
+//! What acts on shells: moments at nodes, forces along edges.
 
 use super::Shells;
 use crate::setup::quoted;
@@ -89,25 +89,6 @@ fn thickness(face: Face, mesh: &Mesh) -> Option<f64> {
     let lengths = across.filter_map(|(&a, &b)| Some((point(b)? - point(a)?).norm()));
     let lengths: Vec<f64> = lengths.collect();
     (!lengths.is_empty()).then(|| lengths.iter().sum::<f64>() / lengths.len() as f64)
-}
-
-/// What nodes on the faces of shells have where the nodes of their surface have a value that changes by so much per length along the
-/// normal: the nodes with what is added to the value.
-pub(in crate::setup) fn gradients(
-    shells: &Shells,
-    nodes: &[NodeId],
-    gradient: f64,
-) -> Vec<(NodeId, f64)> {
-    let mut all = Vec::with_capacity(nodes.len());
-    for &node in nodes {
-        all.push((node, 0.0));
-        for director in shells.directors_at(node) {
-            let half = 0.5 * director.thickness * gradient;
-            all.extend([(director.negative, -half), (director.positive, half)]);
-            all.extend([director.middle, director.half].map(|node| (node, 0.0)));
-        }
-    }
-    all
 }
 
 /// The message on rotations of nodes that are no nodes of shells.

@@ -11,8 +11,9 @@ mod joints;
 mod loads;
 mod mirrors;
 mod rotations;
+mod temperatures;
 
-pub(super) use loads::{gradients, line_load, moments, no_rotations};
+pub(super) use loads::{line_load, moments, no_rotations};
 pub(super) use rotations::Rotations;
 
 use joints::Joints;
@@ -20,7 +21,7 @@ use joints::Joints;
 use super::names::Names;
 use super::quoted;
 use signorini_geometry::expansion::{
-    self, Expansion, ExpansionError, Joining, Section, ShellCell, ShellSide, expand,
+    self, Expansion, ExpansionError, Joining, Place, Section, ShellCell, ShellSide, expand,
 };
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
@@ -40,6 +41,8 @@ pub(super) struct Shells {
     first: usize,
     /// The node of the surface behind each node from there on.
     behind: Vec<NodeId>,
+    /// The nodes of the input that each of the first of these lies between.
+    parents: Vec<Vec<NodeId>>,
     joints: Joints,
 }
 
@@ -92,6 +95,18 @@ impl Shells {
         let mut mesh = std::mem::take(&mut expansion.mesh);
         let joints = Joints::new(&mut expansion, &mut mesh);
         let first = given.nnode();
+        let cells: Vec<CellId> = of_bodies
+            .iter()
+            .flat_map(|of| of.cells.iter().copied())
+            .collect();
+        let parents = expansion.places.iter().map(|place| match place {
+            Place::Edge(ends) => ends.to_vec(),
+            Place::Cell(shell) => {
+                let cell = cells.get(*shell).map_or(&[][..], |&cell| given.cell(cell));
+                cell.to_vec()
+            }
+        });
+        let parents = parents.collect();
         let mut behind: Vec<NodeId> = (first..mesh.nnode()).map(|node| node as NodeId).collect();
         for director in &expansion.directors {
             for node in [
@@ -111,6 +126,7 @@ impl Shells {
             by_label,
             first,
             behind,
+            parents,
             joints,
         };
         (mesh, shells)
@@ -159,6 +175,25 @@ impl Shells {
                 *node = behind;
             }
         }
+        nodes.sort_unstable();
+        nodes.dedup();
+    }
+
+    /// New nodes of the surface, each with the nodes of the input that it lies between: on an edge, or in an element.
+    fn between(&self) -> impl Iterator<Item = (NodeId, &[NodeId])> {
+        let nodes = self.first..;
+        let nodes = nodes.map(|node| node as NodeId);
+        nodes.zip(self.parents.iter().map(Vec::as_slice))
+    }
+
+    /// Adds the nodes that lie between these, on edges and in elements all of whose nodes are among them. Sorted.
+    pub fn add_between(&self, nodes: &mut Vec<NodeId>) {
+        let has = |node: &NodeId| nodes.binary_search(node).is_ok();
+        let more = self
+            .between()
+            .filter(|(_, parents)| parents.iter().all(has));
+        let more: Vec<NodeId> = more.map(|(node, _)| node).collect();
+        nodes.extend(more);
         nodes.sort_unstable();
         nodes.dedup();
     }

@@ -21,11 +21,11 @@
 //!
 //! ```text
 //! M_kk |G₀ᵏ|² = ξ α_1, η α_2, ζ α_5,   2 M_12 |G₀¹||G₀²| = ξ α_3 + η α_4
-//! E_ij += (G_i·G₀ᵏ)(G_j·G₀ˡ) M_kl (J₀/J)                                                       (E38)
+//! E_ij += (G_i·G₀ᵏ)(G_j·G₀ˡ) M_kl (A₀/A)                                                       (E38)
 //! ```
 //!
-//! with the map at the centre, and without `J₀/J` for `α_5`: only then does the patch test of bending pass on distorted elements. The
-//! modes are in equilibrium within the element and condensed as in (E12), at small and at finite strain: force, stiffness and energy
+//! with the map at the centre and the area `A = |G_1 × G_2|` of the middle, but without `A₀/A` for `α_5`: only then does the patch test
+//! of bending pass on distorted elements. Of areas, not of volumes, for force is carried by a thickness that varies. The modes are in equilibrium within the element and condensed as in (E12), at small and at finite strain: force, stiffness and energy
 //! are functions of the displacements alone.
 //!
 //! The stiffness of the stresses may take those that the last correction `du` predicted, which bend less: with `w_i = du,i`,

@@ -110,9 +110,10 @@ pub(super) struct Geometry {
     /// The last correction of the unknowns.
     lagging: [Vec3; NB],
     tying: [Tying; 4],
-    /// `G₀ᵏ` and `J₀`.
+    /// `G₀ᵏ`.
     dual: [Vec3; 3],
-    det: f64,
+    /// `A₀`.
+    area: f64,
 }
 
 /// What a quadrature point has.
@@ -158,7 +159,7 @@ impl Geometry {
             }
         });
         let centre = derivatives(&slopes(Vec3::ZERO), &start);
-        let (turn, det) = inverse(Mat3::from_rows(centre))?;
+        let (turn, _) = inverse(Mat3::from_rows(centre))?;
         Ok(Self {
             finite: element.kinematics == Kinematics::Finite,
             start,
@@ -166,7 +167,7 @@ impl Geometry {
             lagging,
             tying,
             dual: turn.transpose().rows,
-            det,
+            area: area(&centre),
         })
     }
 
@@ -218,7 +219,7 @@ impl Geometry {
             weight: weight * det,
             dual: turn.transpose().rows,
             strain: self.assume(xi, &corners, local, of, of_corner),
-            modes: self.modes(xi, &base, det),
+            modes: self.modes(xi, &base),
             moved,
             slopes,
             corners,
@@ -260,8 +261,9 @@ impl Geometry {
     }
 
     /// (E38).
-    fn modes(&self, xi: Vec3, base: &[Vec3; 3], det: f64) -> [[f64; MODES]; 6] {
-        let scale = self.det / det;
+    fn modes(&self, xi: Vec3, base: &[Vec3; 3]) -> [[f64; MODES]; 6] {
+        let middle = derivatives(&slopes(Vec3::new(xi.x, xi.y, 0.0)), &self.start);
+        let scale = self.area / area(&middle);
         // modes of the size of strains along the axes of the frame: those of thin elements differ by powers of their thickness
         let [a, b, c] = self.dual.map(|dual| dual.norm().recip());
         // (place of M_kl in pairs of axes, its size), mode by mode
@@ -343,6 +345,11 @@ impl Geometry {
             to[4 + k][4 + k] += at.weight * stress[2] * n;
         }
     }
+}
+
+/// `|G_1 × G_2|`.
+fn area(base: &[Vec3; 3]) -> f64 {
+    base[0].cross(base[1]).norm()
 }
 
 /// By how much the two tying points of a shear count.
