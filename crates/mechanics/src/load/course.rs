@@ -267,6 +267,7 @@ mod tests {
             vibrates: false,
             physics: crate::system::Physics::default(),
             cycles: 1.0,
+            ..StepContext::default()
         }
     }
 

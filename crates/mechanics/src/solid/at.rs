@@ -21,6 +21,14 @@ impl<'a> At<'a> {
         }
     }
 
+    /// The correction that led here, of all dofs; empty where none did.
+    pub fn correction(self) -> &'a [f64] {
+        match self {
+            Self::Trial(state) => &state.correction,
+            Self::Start => &[],
+        }
+    }
+
     /// The way of each node in the increment, where the state is between the ends of one.
     pub fn way(self) -> Option<&'a [Vec3]> {
         match self {

@@ -9,10 +9,9 @@ use super::kernel::{
     viscous_kernel,
 };
 use super::plan::Part;
-use super::scratch::Scratch;
 use super::{AtNodes, Locking, report};
 use crate::material::{Kinematics, Material};
-use crate::system::{Idealisation, Sink};
+use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::collections::HashMap;
@@ -48,6 +47,17 @@ pub(super) struct Treatment {
     /// Of stresses over the rate of strain at finite strain.
     pub viscous: Option<Kernel>,
 }
+
+impl Treatment {
+    /// Whether the geometric stiffness of its kernel can take predicted stresses.
+    pub fn predicts(&self) -> bool {
+        let remedy = self.locking.map(Locking::remedy);
+        matches!(remedy, Ok(Remedy::None | Remedy::Shell))
+    }
+}
+
+/// The largest extent of a cell over its smallest one above which it is thin.
+const THIN: f64 = 5.0;
 
 /// Cells of one element.
 pub(super) struct Cells {
@@ -166,22 +176,6 @@ impl Cells {
         &self.nodes[cell * self.nnode..(cell + 1) * self.nnode]
     }
 
-    /// The nodes of a cell in the mesh: where it is, what temperatures it has, and what results are carried to.
-    pub fn ends_of(&self, cell: usize) -> &[NodeId] {
-        let of_cell = cell * self.nnode..(cell + 1) * self.nnode;
-        let ends = self.ends.get(of_cell);
-        ends.unwrap_or_else(|| self.nodes_of(cell))
-    }
-
-    /// The nodes of all cells in the mesh.
-    pub fn all_ends(&self) -> &[NodeId] {
-        if self.ends.is_empty() {
-            &self.nodes
-        } else {
-            &self.ends
-        }
-    }
-
     /// Gives every cell the history of the undeformed material.
     pub fn start(&mut self, material: &dyn Material) {
         let n = material.nhistory();
@@ -285,32 +279,15 @@ impl Cells {
             .collect()
     }
 
-    /// `M ∫ max_k |N_k,X|² dV` of the middle of every cell whose nodes are ends of directors.
-    pub fn rigidities_of_middles(&self, reference: &[Vec3], modulus: f64) -> Vec<f64> {
+    /// Whether some cell is thin, by the map from its reference element at the centre.
+    pub fn has_thin(&self, reference: &[Vec3]) -> bool {
         let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
-        let of_cell = |nodes: &[NodeId]| {
-            let x: Vec<Vec3> = nodes.iter().map(at).collect();
-            modulus * self.points.stretch_of_middle(&x)
-        };
-        self.ends.chunks_exact(self.nnode).map(of_cell).collect()
-    }
-
-    /// Bounds what rounding of displacements does to the forces of a cell: strains are sums of as many products as there are
-    /// nodes.
-    pub fn doubt(&self, cell: usize, stiffer: f64, of: &Scratch, out: &mut dyn Sink) {
-        let largest = |u: &[f64]| u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
-        let factor = f64::EPSILON * self.nnode as f64 * stiffer;
-        let rigidity = self.rigidity.get(cell).copied().unwrap_or_default();
-        let Some(&of_middle) = self.of_middle.get(cell) else {
-            out.uncertain(&of.dofs, factor * rigidity * largest(&of.u));
-            return;
-        };
-        let (middle, half) = of.u.split_at(of.u.len() / 2);
-        let (middle, half) = (largest(middle), largest(half));
-        let mixed = (of_middle * rigidity).sqrt();
-        let (to_middle, to_half) = of.dofs.split_at(of.dofs.len() / 2);
-        out.uncertain(to_middle, factor * (of_middle * middle + mixed * half));
-        out.uncertain(to_half, factor * (mixed * middle + rigidity * half));
+        let mut x: Vec<Vec3> = Vec::new();
+        self.all_ends().chunks_exact(self.nnode).any(|nodes| {
+            x.clear();
+            x.extend(nodes.iter().map(at));
+            self.points.slenderness(&x) > THIN
+        })
     }
 
     /// Checks that no node lies beyond the axis, and no quadrature point on it.

@@ -29,6 +29,7 @@
 //! |---|---|---|---|
 //! | B-bar, F-bar | `b-bar`, `f-bar` | the dilatation projected, `kernel::dilatation` (E5) to (E10) | not in plane stress |
 //! | incompatible modes | `incompatible` | condensed, `kernel::modes` (E11), (E12) | quad4, hex8; small strain |
+//! | solid-shell | `solid-shell` | assumed strains across, enhanced modes, `kernel::shell` (E37) to (E39) | shells |
 //! | shear of the centre | `selective-shear` | selective reduced integration, `kernel::shear` (E13); never by `auto` | quad4; small strain |
 //! | reduced integration | | fewer points | quad8, hex20 |
 //!
@@ -49,6 +50,17 @@
 //! A material *keeps its volume* where it is plastic or its bulk and shear moduli are those of `ν ≥ 0.45`. tri3, tet4
 //! and wedge6 have no remedy: their dilatation is constant already, or nearly so, and they stay stiff in bending and lock
 //! where volume is kept; quadratic elements are the way out. What was chosen can be read back, [`Solid::locking`].
+//!
+//! # Thin bodies
+//!
+//! In static steps at finite strain the geometric stiffness `δ_ik S_ab` of (E2) takes the stress that the last Newton correction
+//! predicted, (E36) of `kernel::predicted`: by itself in bodies with an element whose extents differ by more than a factor of five.
+//! Laws with a history and elements with another remedy than the solid-shell take the stress of the iterate.
+//!
+//! # Shells
+//!
+//! A body of solid-shells has hex8 whose nodes are the ends of directors, and the unknowns of these, [`crate::system::Directors`]:
+//! (E37) to (E40) in `kernel::shell`. It needs no other remedy, at any size of strains.
 //!
 //! # In motions that conserve energy
 //!
@@ -108,10 +120,13 @@ mod cells;
 mod choice;
 mod conserving;
 mod damping;
+mod directors;
 mod error;
 mod heat;
 mod kernel;
+mod laws;
 mod plan;
+mod predicting;
 mod report;
 mod scratch;
 mod swelling;

@@ -11,6 +11,7 @@ use signorini_geometry::tensor::Vec3;
 pub(super) struct Scratch {
     pub x: Vec<Vec3>,
     pub u: Vec<f64>,
+    pub correction: Vec<f64>,
     pub way: Vec<f64>,
     pub rate: Vec<f64>,
     pub profile: Vec<f64>,
@@ -44,6 +45,7 @@ pub(super) struct OfRates {
 pub(super) struct InLanes {
     pub x: Vec<f64>,
     pub u: Vec<f64>,
+    pub correction: Vec<f64>,
     pub force: Vec<f64>,
     pub blocks: Vec<f64>,
     pub energy: Vec<f64>,

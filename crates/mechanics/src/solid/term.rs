@@ -3,6 +3,7 @@ use super::axes::MaterialAxes;
 use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
 use super::damping::Damping;
+use super::directors::to_directors;
 use super::error::SolidError;
 use super::kernel::{Batch, BatchKernel, Element, Failure, Output, Results, Sample, width};
 use super::plan::{Plan, is_linear};
@@ -10,7 +11,7 @@ use super::scratch::{Scratch, Wanted};
 use super::{AtNodes, Integration, Locking, report};
 use crate::material::{Kinematics, Material, Reduced};
 use crate::system::{
-    Capabilities, Directors, Frame, Idealisation, Layout, Lifetime, NodalField, Order, Part,
+    Capabilities, Directors, Dof, Frame, Idealisation, Layout, Lifetime, NodalField, Order, Part,
     PatternSink, Phase, Properties, Sink, State, StepContext, Stored, Symmetry, Term, TermError,
     Work,
 };
@@ -29,7 +30,7 @@ pub struct Solid {
     // materials that take its place, each with the step from which on it does, in their order
     pub(super) later: Vec<(usize, Box<dyn Material>)>,
     // whether each of these laws is linear in the strain of Green and Lagrange, before directions are free of stress
-    linear: Vec<bool>,
+    pub(super) linear: Vec<bool>,
     pub(super) kinematics: Kinematics,
     pub(super) space: Idealisation,
     // what the thickness is multiplied by at every node of the mesh; none: 1
@@ -44,6 +45,9 @@ pub struct Solid {
     // whether the strain at which cells were added is taken off in the present step
     pub(super) subtracts: bool,
     pub(super) damping: Damping,
+    // whether some cell is thin, and whether the tangent takes predicted stresses in the present step (E36)
+    pub(super) is_thin: bool,
+    pub(super) predicts: bool,
 }
 
 /// What a body is made from.
@@ -83,17 +87,8 @@ pub struct SolidParts<'a> {
     pub directors: &'a Directors,
 }
 
-/// Makes places of the ends of directors their middles and halves.
-fn to_directors(places: &mut [Vec3]) {
-    let (negative, positive) = places.split_at_mut(places.len() / 2);
-    for (negative, positive) in negative.iter_mut().zip(positive) {
-        let (low, high) = (*negative, *positive);
-        (*negative, *positive) = ((low + high) * 0.5, (high - low) * 0.5);
-    }
-}
-
 /// A material as it answers in a space.
-fn in_space(material: Box<dyn Material>, space: Idealisation) -> Box<dyn Material> {
+pub(super) fn in_space(material: Box<dyn Material>, space: Idealisation) -> Box<dyn Material> {
     match space {
         Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
         _ => material,
@@ -167,23 +162,18 @@ impl Solid {
             };
             places[at].push(place);
             let of_block = &mut blocks[at].1;
-            if locking == Locking::Shell {
-                let carriers = directors.carriers(mesh.cell(id));
-                of_block
-                    .nodes
-                    .extend(carriers.ok_or_else(|| SolidError::NoDirector {
-                        body: name.to_string(),
-                        label,
-                    })?);
-                of_block.ends.extend_from_slice(mesh.cell(id));
-            } else {
-                of_block.nodes.extend_from_slice(mesh.cell(id));
-            }
+            let directors = (locking == Locking::Shell).then_some(directors);
+            of_block
+                .push(mesh.cell(id), directors)
+                .ok_or_else(|| SolidError::NoDirector {
+                    body: name.to_string(),
+                    label,
+                })?;
             of_block.labels.push(label);
             of_block.ids.push(id);
         }
         let mut blocks: Vec<Cells> = blocks.into_iter().map(|(_, c)| c).collect();
-        let mut chunks = Vec::new();
+        let (mut chunks, mut is_thin) = (Vec::new(), false);
         for (number, block) in blocks.iter_mut().enumerate() {
             if space == Idealisation::Axisymmetric {
                 block.radii(name, &reference)?;
@@ -191,6 +181,7 @@ impl Solid {
             block.start(material.as_ref());
             block.begin(name, initial)?;
             block.orient(name, axes.as_ref(), &places[number], &reference)?;
+            is_thin |= locking == Locking::Shell || block.has_thin(&reference);
             block.rigidity = block.rigidities(&reference, space, material.modulus());
             block.of_middle = block.rigidities_of_middles(&reference, material.modulus());
             let ncell = block.labels.len();
@@ -217,45 +208,9 @@ impl Solid {
             plan: None,
             subtracts: false,
             damping: Damping::default(),
+            is_thin,
+            predicts: false,
         })
-    }
-
-    /// Another material takes the place of the present one when a step begins; steps come in their order.
-    ///
-    /// # Errors
-    /// Its history at a point is another one's.
-    pub fn change(&mut self, step: usize, material: Box<dyn Material>) -> Result<(), SolidError> {
-        let linear = is_linear(material.as_ref());
-        let material = in_space(material, self.space);
-        if material.nhistory() != self.material.nhistory() {
-            return Err(SolidError::OtherHistory {
-                body: self.name.clone(),
-            });
-        }
-        self.later.push((step, material));
-        self.linear.push(linear);
-        Ok(())
-    }
-
-    /// How many materials have taken the place of one before.
-    pub(super) fn nchanged(&self) -> usize {
-        let is_begun = |(step, _): &&(usize, _)| *step <= self.step.number;
-        self.later.iter().take_while(is_begun).count()
-    }
-
-    /// The material of the present step.
-    pub(super) fn material(&self) -> &dyn Material {
-        let last = self.nchanged().checked_sub(1);
-        let later = last.and_then(|last| self.later.get(last));
-        later.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
-    }
-
-    /// Whether the law of the present step is linear in the strain of Green and Lagrange.
-    pub(super) fn is_linear(&self) -> bool {
-        self.linear
-            .get(self.nchanged())
-            .copied()
-            .unwrap_or_default()
     }
 
     /// Identifies the cells that take part.
@@ -372,6 +327,9 @@ impl Solid {
         } = scratch;
         lanes.x.resize(n * width, 0.0);
         lanes.u.resize(n * width, 0.0);
+        let correction = self.correction(at);
+        let ncorrected = if correction.is_empty() { 0 } else { n * width };
+        lanes.correction.resize(ncorrected, 0.0);
         lanes.force.resize(n * width, 0.0);
         lanes.blocks.resize(nblocks * width, 0.0);
         lanes.energy.resize(width, 0.0);
@@ -386,7 +344,11 @@ impl Solid {
                 for (axis, x) in x.into_iter().enumerate().take(self.layout.ndim()) {
                     let place = (k * self.layout.ndim() + axis) * width + lane;
                     lanes.x[place] = x;
-                    lanes.u[place] = at.displacement(self.layout.node(node, axis));
+                    let dof = self.layout.node(node, axis);
+                    lanes.u[place] = at.displacement(dof);
+                    if let Some(to) = lanes.correction.get_mut(place) {
+                        *to = correction.get(dof as usize).copied().unwrap_or_default();
+                    }
                 }
             }
             let origin = self.origin(block, cell);
@@ -413,6 +375,7 @@ impl Solid {
             is_finite: self.kinematics == Kinematics::Finite,
             x: &lanes.x,
             u: &lanes.u,
+            correction: &lanes.correction,
             lame: lame.filter(|_| block.initial.is_empty()),
             cell: &cell,
         };
@@ -514,8 +477,8 @@ impl Solid {
             reference: &block.points,
             x: &[],
             u: &[],
-            way: &[],
             correction: &[],
+            way: &[],
             rate: &[],
             slope: 0.0,
             material: self.material(),
@@ -574,6 +537,12 @@ impl Solid {
         scratch: &mut Scratch,
     ) -> Result<f64, TermError> {
         self.place(block, cell, at, scratch);
+        scratch.correction.clear();
+        let correction = self.correction(at);
+        if !correction.is_empty() {
+            let of_dof = |dof: &Dof| correction.get(*dof as usize).copied().unwrap_or_default();
+            scratch.correction.extend(scratch.dofs.iter().map(of_dof));
+        }
         scratch.way.clear();
         let way = self.secant_way(at);
         if let Some(way) = way {
@@ -587,6 +556,7 @@ impl Solid {
         let element = Element {
             x: &scratch.x,
             u: &scratch.u,
+            correction: &scratch.correction,
             way: &scratch.way,
             profile: &scratch.profile,
             temperature: &scratch.temperature,
@@ -666,6 +636,7 @@ impl Term for Solid {
             retardation: self.damping.retardation,
             elements: self.elements_id(),
             to_end: is_secant,
+            predicts: self.predicts,
             ..Properties::new(symmetry, Part::Bulk)
         }
     }
@@ -696,6 +667,7 @@ impl Term for Solid {
         }
         self.step = phase.step;
         self.set_kinematics(kinematics);
+        self.predicts = self.may_predict();
         self.begin_damping(phase, from);
         if self.step.conserves() {
             self.conserves_energy(kinematics)

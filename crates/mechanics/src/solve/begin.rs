@@ -34,6 +34,7 @@ impl Stepper {
         }
         let context = StepContext {
             cycles: progress.turns.stands_for.max(1.0),
+            geometric: self.newton.settings.geometric,
             ..step.context(progress.step, progress.step_start)
         };
         self.state.is_small = !step.nonlinear;

@@ -1,7 +1,7 @@
 //! Steps: their increments, and the values that they prescribe.
 
 use super::TimeControl;
-use crate::system::{Dof, Physics, Scheme, StepContext, TimeFunction};
+use crate::system::{Dof, GeometricStress, Physics, Scheme, StepContext, TimeFunction};
 
 /// How a step is cut into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,6 +147,7 @@ impl Step {
             vibrates,
             physics: self.physics,
             cycles: 1.0,
+            geometric: GeometricStress::default(),
         }
     }
 }

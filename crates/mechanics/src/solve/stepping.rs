@@ -656,6 +656,7 @@ impl Stepper {
         }
         let from = self.state.time;
         self.state.clone_from(&self.newton.trial);
+        self.state.correction.clear();
         self.state.rates = rates;
         system.accept(&self.state)?;
         let times = [from, self.state.time];

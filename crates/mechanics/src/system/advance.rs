@@ -16,6 +16,7 @@ impl State {
             x: reference.to_vec(),
             rates: None,
             between: None,
+            correction: Vec::new(),
         }
     }
 
@@ -32,6 +33,7 @@ impl State {
     ) {
         self.u.clone_from(&base.u);
         self.is_small = base.is_small;
+        self.correction.clear();
         self.poses.clone_from(&base.poses);
         for (u, d) in self.u.iter_mut().zip(du) {
             *u += alpha * d;
@@ -52,6 +54,17 @@ impl State {
             }
             *x = moved;
         }
+    }
+
+    /// Keeps the correction from another state to this one.
+    pub fn correct_from(&mut self, before: &State) {
+        let changes = self
+            .u
+            .iter()
+            .zip(&before.u)
+            .map(|(now, before)| now - before);
+        self.correction.clear();
+        self.correction.extend(changes);
     }
 
     /// Becomes the state between an accepted one and the trial at the end of its increment, (E6). Multipliers, and fields

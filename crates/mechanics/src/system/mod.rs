@@ -102,7 +102,7 @@ pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_D
 pub use local_heat::LocalHeat;
 pub use loose::Course;
 pub use motion::{Between, BodyRates, BodyWay, Leapfrog, MassScaling, Rates, Scheme};
-pub use phase::{Heat, Increment, Phase, Physics, StepContext};
+pub use phase::{GeometricStress, Heat, Increment, Phase, Physics, StepContext};
 pub use rigid_motion::{RigidMass, moved};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;

@@ -56,6 +56,18 @@ impl Default for Physics {
     }
 }
 
+/// Which stress the geometric stiffness of bodies takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GeometricStress {
+    /// The predicted one where a body is thin, else the current one.
+    #[default]
+    Auto,
+    /// The stress that the last correction predicted from the linearized strains.
+    Mixed,
+    /// The stress of the iterate.
+    Current,
+}
+
 /// The step a run is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepContext {
@@ -76,9 +88,18 @@ pub struct StepContext {
     pub physics: Physics,
     /// For how many cycles of wear it stands.
     pub cycles: f64,
+    /// Which stress the geometric stiffness of bodies takes.
+    pub geometric: GeometricStress,
 }
 
 impl StepContext {
+    /// Whether a geometric stiffness may take a stress that a correction predicted: in static steps at finite strain.
+    #[must_use]
+    pub fn may_predict(&self) -> bool {
+        let is_wanted = self.geometric != GeometricStress::Current;
+        is_wanted && self.nonlinear && self.scheme.is_none() && !self.vibrates
+    }
+
     /// Whether forces that have a potential do exactly the work of that.
     #[must_use]
     pub fn conserves(&self) -> bool {
@@ -104,6 +125,7 @@ impl Default for StepContext {
             vibrates: false,
             physics: Physics::default(),
             cycles: 1.0,
+            geometric: GeometricStress::default(),
         }
     }
 }

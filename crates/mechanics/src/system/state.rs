@@ -21,6 +21,9 @@ pub struct State {
     pub rates: Option<Rates>,
     /// Where the state is between the ends of an increment of such a motion, what it brings with it.
     pub between: Option<Between>,
+    /// The Newton correction that led here, of the raw dofs; empty where none did or no term asks for it. Tangents alone
+    /// depend on it.
+    pub correction: Vec<f64>,
 }
 
 /// The names under which rates are stored.
@@ -74,6 +77,7 @@ impl State {
             }
         }
         self.rates = None;
+        self.correction.clear();
         if from.length(RATES[0]).is_ok() {
             let [velocity, acceleration] = RATES.map(|name| {
                 let mut numbers = vec![[0.0; 3]; self.x.len()];

@@ -19,6 +19,8 @@ pub struct Properties {
     pub retardation: f64,
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     pub has_saddle: bool,
+    /// Whether its tangent takes the stress that the last correction predicted, [`State::correction`].
+    pub predicts: bool,
     /// Identifies the elements, or bodies, that take part. Equal numbers mean equal ones, and with them an equal pattern, but for what
     /// contact couples.
     pub elements: u64,
@@ -36,6 +38,7 @@ impl Properties {
             to_end: false,
             retardation: 0.0,
             has_saddle: false,
+            predicts: false,
             elements: 0,
         }
     }

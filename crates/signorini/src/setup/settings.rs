@@ -4,6 +4,7 @@ use signorini_io::case::{self, FreeMotions};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_linear::{LinearKind, SOLVERS};
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, StepperSettings};
+use signorini_mechanics::system::GeometricStress;
 
 /// The numbers of the solution.
 pub(super) fn settings(solver: &case::Solver, found: &mut Diagnostics) -> StepperSettings {
@@ -15,6 +16,11 @@ pub(super) fn settings(solver: &case::Solver, found: &mut Diagnostics) -> Steppe
             line_search: match newton.line_search {
                 case::LineSearch::Off => LineSearch::Off,
                 case::LineSearch::Auto | case::LineSearch::On => LineSearch::Auto,
+            },
+            geometric: match newton.stress {
+                case::GeometricStress::Auto => GeometricStress::Auto,
+                case::GeometricStress::Mixed => GeometricStress::Mixed,
+                case::GeometricStress::Current => GeometricStress::Current,
             },
             hold_free: solver.free_motions == FreeMotions::Hold,
         },

@@ -35,5 +35,6 @@ mod sharp;
 mod slip;
 mod stack;
 mod start_gaps;
+mod thin;
 mod valley;
 mod variants;

@@ -28,6 +28,11 @@ impl Builder<'_> {
                     Some(false) => LineSearch::Off,
                     None => LineSearch::Auto,
                 },
+                stress: match newton.text("stress").value.as_str() {
+                    "mixed" => GeometricStress::Mixed,
+                    "current" => GeometricStress::Current,
+                    _ => GeometricStress::Auto,
+                },
             },
             linear: Spanned {
                 value: match linear.value.as_str() {

@@ -31,6 +31,20 @@ pub struct Newton {
     pub gap_tol: f64,
     /// Whether corrections are shortened.
     pub line_search: LineSearch,
+    /// Which stress the geometric stiffness takes.
+    pub stress: GeometricStress,
+}
+
+/// Which stress the geometric stiffness of bodies takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GeometricStress {
+    /// The predicted one in thin bodies, else the current one.
+    #[default]
+    Auto,
+    /// The stress that the last correction predicted.
+    Mixed,
+    /// The stress of the iterate.
+    Current,
 }
 
 /// Whether corrections are shortened.

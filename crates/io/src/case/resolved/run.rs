@@ -10,6 +10,11 @@ pub(super) fn solver(solver: &Solver) -> Entries {
         LineSearch::On => true.into(),
         LineSearch::Off => false.into(),
     };
+    let stress = match newton.stress {
+        GeometricStress::Auto => "auto",
+        GeometricStress::Mixed => "mixed",
+        GeometricStress::Current => "current",
+    };
     let remedies = solver.on_trouble.iter().map(|remedy| match remedy {
         Remedy::Cut => "cut",
         Remedy::Stabilize => "stabilize",
@@ -23,6 +28,7 @@ pub(super) fn solver(solver: &Solver) -> Entries {
                 ("force_tol", newton.force_tol.into()),
                 ("gap_tol", newton.gap_tol.into()),
                 ("line_search", line_search),
+                ("stress", stress.into()),
             ]),
         ),
         ("linear", solver.linear.word().into()),

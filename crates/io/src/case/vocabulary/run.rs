@@ -81,6 +81,12 @@ pub(super) static NEWTON: Table = Table {
             "whether corrections are shortened",
         )
         .or(Default::Text("auto")),
+        key(
+            "stress",
+            Shape::Choice(&[word("auto"), word("mixed"), word("current")]),
+            "stress of the geometric stiffness at finite strain: `mixed` takes the stress that the last correction predicted, `auto` does in thin bodies",
+        )
+        .or(Default::Text("auto")),
     ],
     rules: &[],
 };

@@ -128,6 +128,7 @@ fn press(discretization: Box<dyn Discretization>, line_search: LineSearch) -> Co
             force_tol: 1e-10,
             line_search,
             hold_free: false,
+            ..NewtonSettings::default()
         },
         ..StepperSettings::default()
     };

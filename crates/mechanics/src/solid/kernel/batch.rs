@@ -27,6 +27,8 @@ pub(in crate::solid) struct Batch<'a> {
     pub x: &'a [f64],
     /// Displacements.
     pub u: &'a [f64],
+    /// The correction that led to them, for (E36); empty: the geometric stiffness takes the stress.
+    pub correction: &'a [f64],
     /// The constants of a law that is isotropic and linear, without anything at the start.
     pub lame: Option<Lame>,
     /// The cell in a lane, of which only the material's part is asked.
@@ -67,6 +69,7 @@ impl<const NN: usize> WithSimd for Evaluation<'_, '_, '_, NN> {
         let zero = Lanes::splat(simd, 0.0);
         let x = S::as_simd_f64s(batch.x).0.as_chunks::<3>().0;
         let u = S::as_simd_f64s(batch.u).0.as_chunks::<3>().0;
+        let correction = S::as_simd_f64s(batch.correction).0.as_chunks::<3>().0;
         let force = S::as_mut_simd_f64s(out.force).0.as_chunks_mut::<3>().0;
         let blocks = S::as_mut_simd_f64s(out.blocks).0.as_chunks_mut::<9>().0;
         force.as_flattened_mut().fill(zero.value());
@@ -77,14 +80,7 @@ impl<const NN: usize> WithSimd for Evaluation<'_, '_, '_, NN> {
                 return false;
             };
             // H and F
-            let mut h = [[zero; 3]; 3];
-            for (g, u) in gradient.iter().zip(u) {
-                for i in 0..3 {
-                    for a in 0..3 {
-                        h[i][a] = Lanes::new(simd, u[i]).mul_add(g[a], h[i][a]);
-                    }
-                }
-            }
+            let h = slope(simd, &gradient, u);
             let one = Lanes::splat(simd, 1.0);
             let mut f = [[zero; 3]; 3];
             for i in 0..3 {
@@ -137,6 +133,11 @@ impl<const NN: usize> WithSimd for Evaluation<'_, '_, '_, NN> {
                 }
             }
             if order == Order::Tangent {
+                let mut stress = stress;
+                if !correction.is_empty() {
+                    let change = slope(simd, &gradient, correction);
+                    predict(simd, batch.lame, &tangent, &change, &mut stress);
+                }
                 let mut moduli = match batch.lame {
                     Some(lame) => isotropic(simd, lame, &f),
                     None => moduli(&f, &tangent),
@@ -165,6 +166,60 @@ impl<const NN: usize> WithSimd for Evaluation<'_, '_, '_, NN> {
 }
 
 type Gradient<S, const NN: usize> = [[Lanes<S>; 3]; NN];
+
+/// H = ∂u/∂X.
+#[inline(always)]
+fn slope<S: Simd, const NN: usize>(
+    simd: S,
+    gradient: &Gradient<S, NN>,
+    u: &[[S::f64s; 3]],
+) -> [[Lanes<S>; 3]; 3] {
+    let mut h = [[Lanes::splat(simd, 0.0); 3]; 3];
+    for (g, u) in gradient.iter().zip(u) {
+        for i in 0..3 {
+            for a in 0..3 {
+                h[i][a] = Lanes::new(simd, u[i]).mul_add(g[a], h[i][a]);
+            }
+        }
+    }
+    h
+}
+
+/// Takes C:Q off a stress (E36), with the slope of the correction.
+#[inline(always)]
+fn predict<S: Simd>(
+    simd: S,
+    lame: Option<Lame>,
+    tangent: &[[Lanes<S>; 6]; 6],
+    change: &[[Lanes<S>; 3]; 3],
+    stress: &mut [Lanes<S>; 6],
+) {
+    // −Q
+    let minus = Lanes::splat(simd, -0.5);
+    let mut strain = [Lanes::splat(simd, 0.0); 6];
+    for (to, (i, j)) in strain.iter_mut().zip(Sym3::PAIRS) {
+        let mut sum = change[0][i] * change[0][j];
+        for k in 1..3 {
+            sum = change[k][i].mul_add(change[k][j], sum);
+        }
+        *to = minus * sum;
+    }
+    if let Some(lame) = lame {
+        let (less, _) = linear(simd, lame, &strain);
+        for (to, less) in stress.iter_mut().zip(less) {
+            *to = *to + less;
+        }
+        return;
+    }
+    for q in 3..6 {
+        strain[q] = strain[q] + strain[q]; // shears count twice
+    }
+    for (to, row) in stress.iter_mut().zip(tangent) {
+        for (c, q) in row.iter().zip(&strain) {
+            *to = c.mul_add(*q, *to);
+        }
+    }
+}
 
 /// Gradients of the shape functions at a point, and the volume that belongs to it; nothing where the map from the
 /// reference element has no positive determinant.

@@ -11,10 +11,10 @@ pub(in crate::solid) struct Element<'a> {
     pub reference: &'a Points,
     pub x: &'a [Vec3],
     pub u: &'a [f64],
+    /// The correction that led to `u`, from which the geometric stiffness predicts its stress; empty: it takes the stress.
+    pub correction: &'a [f64],
     /// Their way in the increment, where stresses are secants; `u` is then halfway.
     pub way: &'a [f64],
-    /// The last correction of Newton's method, where stresses are predicted by it.
-    pub correction: &'a [f64],
     /// Their velocities, where stresses follow from rates of strain, and by what these change with displacements.
     pub rate: &'a [f64],
     pub slope: f64,
@@ -127,6 +127,7 @@ pub(in crate::solid) struct Points {
     pub shape_at_centre: Vec<f64>,
     pub dshape_at_centre: Vec<Vec3>,
     pub nnode: usize,
+    pub dim: usize,
 }
 
 impl Points {
@@ -140,6 +141,7 @@ impl Points {
             shape_at_centre: vec![0.0; nnode],
             dshape_at_centre: vec![Vec3::ZERO; nnode],
             nnode,
+            dim: element.dim(),
         };
         for (point, xi) in rule.points.iter().enumerate() {
             let at = point * nnode..(point + 1) * nnode;
@@ -213,6 +215,23 @@ impl Points {
         let slopes = middles.map(|d| (inverse * d).norm_squared());
         let volume = self.rule.weights.iter().sum::<f64>() * det.abs();
         slopes.fold(0.0, f64::max) * volume
+    }
+
+    /// The largest extent over the smallest of a cell whose nodes are at `x`: of the singular values of the map from the
+    /// reference element at the centre. Not finite where that has no inverse.
+    pub fn slenderness(&self, x: &[Vec3]) -> f64 {
+        let mut map = Mat3::ZERO;
+        for (x, slope) in x.iter().zip(&self.dshape_at_centre) {
+            for (row, slope) in map.rows.iter_mut().zip(slope.to_array()) {
+                *row += *x * slope;
+            }
+        }
+        let mut squares = Sym3::gram(map.transpose()).eigenvalues();
+        squares.sort_by(f64::total_cmp);
+        let [.., largest] = squares;
+        // in the plane the row across is zero
+        let smallest = squares.get(3 - self.dim).copied().unwrap_or_default();
+        (largest / smallest.max(0.0)).sqrt()
     }
 
     /// `∫ max_i |N_i,X|² dV` over a cell whose nodes are at `x`; 0 where its map has no inverse.

@@ -15,6 +15,7 @@ mod gradient;
 mod lanes;
 mod modes;
 mod plain;
+mod predicted;
 mod secant;
 mod shear;
 mod shell;

@@ -2,6 +2,7 @@
 
 use super::element::{Element, Failure, Output};
 use super::gradient::{deformation, displacement_gradient, place, strain};
+use super::predicted::predicted;
 use super::stiffness::{add_force, add_stiffness, add_thermal, contract};
 use crate::material::{Order, Response};
 use signorini_geometry::tensor::Mat3;
@@ -29,7 +30,10 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         add_force(out.force, at.weight, &force); // (E1)
         if order == Order::Tangent {
             let f = finite.then_some([&f; 2]);
-            let (stress, tangent) = (&response.stress, &response.tangent);
+            let (stress, tangent) = (
+                &predicted::<NN, ND, NG>(element.correction, &at.gradient, &response),
+                &response.tangent,
+            );
             add_stiffness::<NN, ND, NG>(
                 &at.gradient,
                 f,

@@ -245,6 +245,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         vibrates: false,
         physics: crate::system::Physics::default(),
         cycles: 1.0,
+        ..StepContext::default()
     };
     solid.begin(&Phase::of_step(step), &at).unwrap();
     at.time = 3.0;

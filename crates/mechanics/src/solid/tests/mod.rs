@@ -23,6 +23,7 @@ mod heat;
 mod history;
 mod locking;
 mod patch;
+mod predicted;
 mod samples;
 mod shell;
 mod speed;

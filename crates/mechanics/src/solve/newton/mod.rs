@@ -27,8 +27,8 @@ pub(super) use scale::ForceScale;
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
 use crate::system::{
-    Aid, Assembler, Assembly, Choices, Dof, Increment, Layout, NodeId, Order, Phase, State,
-    StepContext, System, TermError, Verdict,
+    Aid, Assembler, Assembly, Choices, Dof, GeometricStress, Increment, Layout, NodeId, Order,
+    Phase, State, StepContext, System, TermError, Verdict,
 };
 use course::{Course, Released};
 use iterate::{Iterate, Next, Why, is_small};
@@ -54,6 +54,8 @@ pub struct NewtonSettings {
     pub force_tol: f64,
     /// Whether steps are shortened.
     pub line_search: LineSearch,
+    /// Which stress the geometric stiffness of bodies takes.
+    pub geometric: GeometricStress,
     /// Whether motions without stiffness and without load are held; else they are a failure.
     pub hold_free: bool,
 }
@@ -64,6 +66,7 @@ impl Default for NewtonSettings {
             max_iterations: 20,
             force_tol: 1e-6,
             line_search: LineSearch::Auto,
+            geometric: GeometricStress::Auto,
             hold_free: false,
         }
     }
@@ -72,6 +75,9 @@ impl Default for NewtonSettings {
 /// An extrapolated start changes few choices of a term where the term has this many times as many closed contacts.
 /// Iterations of an ironing by mortar and one by Gauss points where none and where few may change: 690, 579 and 748, 744.
 const FEW: usize = 8;
+
+/// From the attempt after this one on, tangents take current stresses, and steps are shortened as usual.
+const PREDICTS_UP_TO: usize = 3;
 
 /// Newton's method with its memory: kept for a whole run.
 pub(super) struct Newton {
@@ -108,6 +114,8 @@ pub(super) struct Newton {
     stiffest: f64,
     /// Whether multipliers are redundant in this increment, so that tangents let them yield.
     relaxes: bool,
+    /// Whether terms ask for the correction that led to the trial state.
+    predicts: bool,
     /// Whether the last increment started from an extrapolation.
     pub extrapolated: bool,
     /// Whether an observer has asked to stop.
@@ -180,6 +188,7 @@ impl Newton {
             held: Vec::new(),
             stiffest: 0.0,
             relaxes: false,
+            predicts: false,
             extrapolated: false,
             stopping: false,
         }
@@ -206,6 +215,9 @@ impl Newton {
         for term in &mut system.terms {
             term.begin(&phase, base)?;
         }
+        let mut terms = system.terms.iter();
+        let may_predict = place.attempt <= PREDICTS_UP_TO;
+        self.predicts = may_predict && terms.any(|term| term.properties().predicts);
         self.between = Middle::new(self.step.scheme.as_ref(), &system.layout, base);
         self.set_negligible(system, self.scale.mean_force());
         self.assembler.begin_increment(&system.terms);

@@ -231,7 +231,8 @@ impl Newton {
         // nor have forces and heat a potential in common
         let physics = self.step.physics;
         let is_coupled = physics.moves && physics.has_heat();
-        if is_coupled || system.terms.iter().any(|t| t.properties().has_saddle) {
+        // a step that follows predicted stresses strains what is thin before the next one relieves it
+        if is_coupled || self.predicts || system.terms.iter().any(|t| t.properties().has_saddle) {
             return self.shorten(system, first, next);
         }
         let slope = self.slope();
@@ -306,6 +307,9 @@ impl Newton {
     fn place(&mut self, system: &System, alpha: f64) {
         system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = self.before.time;
+        if self.predicts {
+            self.trial.correct_from(&self.before);
+        }
         self.moved();
     }
 

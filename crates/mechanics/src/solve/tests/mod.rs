@@ -387,6 +387,7 @@ fn settings(force_tol: f64, line_search: LineSearch) -> StepperSettings {
         force_tol,
         line_search,
         hold_free: false,
+        ..NewtonSettings::default()
     };
     StepperSettings {
         newton,

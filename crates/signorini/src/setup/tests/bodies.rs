@@ -53,16 +53,28 @@ fn bodies_are_solids_bars_or_rigid_with_what_they_are_made_of() {
 }
 
 #[test]
-fn shells_are_refused_where_they_stand() {
+fn a_shell_has_a_solid_with_directors_in_its_place() {
     let sheet = "[mesh]\nnodes = [[1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0]]\n\
         elements = [{ id = 1, type = 'quad4', group = 'sheet', nodes = [1, 2, 3, 4] }]\n\
         [material.m]\nmodel = 'linear-elastic'\nE = 1\nnu = 0\n\
         [[body]]\ngroup = 'sheet'\nmaterial = 'm'\nshell = { thickness = 0.1 }\n[[step]]\nname = 's'\n";
-    let (case, _) = read_case("case.toml", sheet.as_bytes(), &[], crate::vocabulary()).unwrap();
+    let held = "[[step.fix]]\non = 'sheet'\nu = 'all'\n";
+    let (case, _) = read_case(
+        "case.toml",
+        format!("{sheet}{held}").as_bytes(),
+        &[],
+        crate::vocabulary(),
+    )
+    .unwrap();
     let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
-    let all = build(case, mesh).err().unwrap();
-    assert_eq!(all.len(), 1, "{all}");
-    assert_eq!(all.iter().next().unwrap().code.id, "S0111");
+    let model = build(case, mesh).unwrap();
+    // 4 nodes, and for each half its director and both its ends
+    assert_eq!((model.mesh.nnode(), model.mesh.ncell()), (16, 1));
+    assert_eq!(model.system.elimination.directors().all().len(), 4);
+    assert_eq!(model.nodes_of("sheet").unwrap(), [0, 1, 2, 3]);
+    assert_eq!(model.remedies(), ["sheet: solid-shell"]);
+    let of_step = &model.steps[0].prescriptions;
+    assert!(of_step.len() == 12 && of_step.iter().all(|one| one.dof < 12));
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! X = Σ N_k (X_k + ζ D_k),   u = Σ N_k (v_k + ζ d_k),   G_i = X,i   h_i = u,i   g_i = G_i + h_i
-//! E_ij = ½ (G_i·h_j + h_i·G_j + h_i·h_j)                                                       (E36)
+//! E_ij = ½ (G_i·h_j + h_i·G_j + h_i·h_j)                                                       (E37)
 //! ```
 //!
 //! In these unknowns a thin element keeps its digits: bending is `d` alone, and no difference of large displacements. Strains across
@@ -14,14 +14,14 @@
 //!
 //! ```text
 //! E_13 = ½ (1 − η) E_13(0, −1) + ½ (1 + η) E_13(0, 1),   E_23 = ½ (1 − ξ) E_23(−1, 0) + ½ (1 + ξ) E_23(1, 0)
-//! E_33 = Σ N_k E_33(k)                                                                          (E37)
+//! E_33 = Σ N_k E_33(k)                                                                          (E38)
 //! ```
 //!
 //! against locking in shear and of curved thickness, and all are enhanced by five modes `α`,
 //!
 //! ```text
 //! M_kk |G₀ᵏ|² = ξ α_1, η α_2, ζ α_5,   2 M_12 |G₀¹||G₀²| = ξ α_3 + η α_4
-//! E_ij += (G_i·G₀ᵏ)(G_j·G₀ˡ) M_kl (A₀/A)                                                       (E38)
+//! E_ij += (G_i·G₀ᵏ)(G_j·G₀ˡ) M_kl (A₀/A)                                                       (E39)
 //! ```
 //!
 //! with the map at the centre and the area `A = |G_1 × G_2|` of the middle, but without `A₀/A` for `α_5`: only then does the patch test
@@ -31,7 +31,7 @@
 //! The stiffness of the stresses may take those that the last correction `du` predicted, which bend less: with `w_i = du,i`,
 //!
 //! ```text
-//! Q_ij = ½ w_i·w_j,   S_p = S − C : (Q − M δα),   δα = H⁻¹ ∫ Mᵀ C Q                               (E39)
+//! Q_ij = ½ w_i·w_j,   S_p = S − C : (Q − M δα),   δα = H⁻¹ ∫ Mᵀ C Q                               (E40)
 //! ```
 //!
 //! It is zero where Newton's method has converged, so that no solution changes. Source: Magisano, Leonetti, Garcea, IJNME 110, 2017.
@@ -304,7 +304,7 @@ fn integrate(
     Ok((modes, coupling))
 }
 
-/// The stress that the last correction predicted, (E39).
+/// The stress that the last correction predicted, (E40).
 fn ahead(
     element: &Element<'_>,
     geometry: &Geometry,

@@ -61,7 +61,7 @@ fn derivatives(slopes: &[[f64; 3]; NB], values: &[Vec3; NB]) -> [Vec3; 3] {
     sums
 }
 
-/// The part of (E36) with these places that is linear in `h`, shears twice.
+/// The part of (E37) with these places that is linear in `h`, shears twice.
 fn linear(pair: (usize, usize), g: &[Vec3; 3], h: &[Vec3; 3]) -> f64 {
     match pair {
         (i, j) if i == j => g[i].dot(h[i]),
@@ -129,9 +129,9 @@ pub(super) struct AtPoint {
     /// `g_i`; `G_i` at small strain.
     now: [Vec3; 3],
     xi: Vec3,
-    /// (E36), (E37) without the modes.
+    /// (E37), (E38) without the modes.
     pub strain: Voigt,
-    /// (E38), a column for each mode.
+    /// (E39), a column for each mode.
     pub modes: [[f64; MODES]; 6],
 }
 
@@ -228,7 +228,7 @@ impl Geometry {
         })
     }
 
-    /// (E37): strains of the middle from the point, those across from tying points and corners.
+    /// (E38): strains of the middle from the point, those across from tying points and corners.
     fn assume(
         &self,
         xi: Vec3,
@@ -251,7 +251,7 @@ impl Geometry {
         strain
     }
 
-    /// The strain quadratic in the last correction: what (E36) has more than its linear prediction.
+    /// The strain quadratic in the last correction: what (E37) has more than its linear prediction.
     pub fn bend_of_correction(&self, at: &AtPoint) -> Voigt {
         let lagging = derivatives(&at.slopes, &self.lagging);
         let local = |pair| quadratic(pair, &lagging);
@@ -260,7 +260,7 @@ impl Geometry {
         self.assume(at.xi, &at.corners, local, tied, of_corner)
     }
 
-    /// (E38).
+    /// (E39).
     fn modes(&self, xi: Vec3, base: &[Vec3; 3]) -> [[f64; MODES]; 6] {
         let middle = derivatives(&slopes(Vec3::new(xi.x, xi.y, 0.0)), &self.start);
         let scale = self.area / area(&middle);
