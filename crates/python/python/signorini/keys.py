@@ -1849,6 +1849,11 @@ class SolverNewton(Table):
         "whole number ≥ 1, ≤ 1000000000",
         default=20,
     )
+    stress: Key[Literal["auto", "mixed", "current"], Literal["auto", "mixed", "current"]] = Key(
+        "Stress of the geometric stiffness at finite strain: `mixed` takes the stress that the last correction predicted, `auto` does in thin bodies",
+        "`\"auto\"`, `\"mixed\"`, `\"current\"`",
+        default="auto",
+    )
 
 
 class Solver(Table):
