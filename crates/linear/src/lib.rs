@@ -17,6 +17,7 @@
 //! One more solver: a file with a struct that implements [`LinearSolver`], and a line in [`SOLVERS`].
 
 mod condensation;
+mod dense;
 mod direct;
 mod error;
 mod forecast;

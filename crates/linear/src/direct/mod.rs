@@ -18,6 +18,7 @@ pub(crate) mod gathered;
 mod lu;
 mod registers;
 mod size;
+mod softest;
 
 pub use size::Factor;
 pub(crate) use size::{NUMBER, PATTERN};

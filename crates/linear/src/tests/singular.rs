@@ -179,3 +179,59 @@ fn slender_structures_are_not_taken_for_free_bodies() {
         }
     }
 }
+
+#[test]
+fn thin_strips_are_free_only_where_rounding_says_so() {
+    // one brick across and through the thickness, clamped at an end, held along an edge there, or free; the bending of such
+    // bricks locks, so that its stiffness falls with the thickness alone
+    let n = [1, 1, 16];
+    let mut first = None;
+    let mut thinnest: f64 = 1.0;
+    for k in 1..16 {
+        let thickness = 10f64.powf(-0.5 * f64::from(k));
+        let size = [thickness, 1.0, 1.0];
+        let direct = || {
+            let entry = SOLVERS.iter().find(|s| s.kind == LinearKind::Direct);
+            (entry.unwrap().build)()
+        };
+        for held in [vec![], vec![0, 1, 2, 6, 7, 8]] {
+            let mut system = clamped_block(n, size);
+            system.held = held;
+            let assembled = system.assemble();
+            let mut solver = direct();
+            solver.analyze(&assembled.problem()).unwrap();
+            let outcome = solver.factorize(&assembled.values());
+            assert!(
+                matches!(outcome, Err(LinearError::Singular { .. })),
+                "{thickness:e} {:?} {outcome:?}",
+                system.held
+            );
+        }
+        let assembled = clamped_block(n, size).assemble();
+        let mut solver = direct();
+        solver.analyze(&assembled.problem()).unwrap();
+        if let Err(error) = solver.factorize(&assembled.values()) {
+            assert!(matches!(error, LinearError::Singular { .. }), "{error:?}");
+            println!("{thickness:e} {error}");
+            continue;
+        }
+        // across the strip at its free end
+        let mut rhs = vec![0.0; assembled.nequation];
+        for corner in 0..4 {
+            rhs[assembled.nequation - 3 * corner - 3] = 0.25;
+        }
+        let mut x = vec![0.0; assembled.nequation];
+        let outcome = solver.solve(&assembled.values(), &rhs, &mut x, 1e-10);
+        let stiff = 1.0 / (x[assembled.nequation - 3] * thickness);
+        println!("{thickness:e} {outcome:?} {stiff:e}");
+        outcome.unwrap();
+        // what is accepted is right: stiffness over the thickness, to what rounding leaves
+        let expected = *first.get_or_insert(stiff);
+        assert!(
+            (stiff / expected - 1.0).abs() < 0.2,
+            "{thickness:e} {stiff} {expected}"
+        );
+        thinnest = thinnest.min(thickness);
+    }
+    assert!(thinnest < 1e-5, "{thinnest:e}");
+}
