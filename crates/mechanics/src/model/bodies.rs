@@ -165,11 +165,14 @@ impl Context<'_> {
             let (Some(modulus), true) = (modulus, named(&body.name)) else {
                 continue;
             };
-            let nodes: BTreeSet<NodeId> = body
-                .cells
-                .iter()
-                .flat_map(|&c| self.mesh.cell(c).iter().copied())
-                .collect();
+            // ends of directors follow, and contact acts there; viscous forces act in the middle
+            let with_middle = |&node: &NodeId| {
+                let director = self.elimination.directors().at_end(node);
+                [Some(node), director.map(|director| director.middle)]
+            };
+            let cells = body.cells.iter();
+            let nodes = cells.flat_map(|&c| self.mesh.cell(c).iter().flat_map(with_middle));
+            let nodes: BTreeSet<NodeId> = nodes.flatten().collect();
             let points: Vec<Vec3> = nodes.iter().map(at).collect();
             let extent = self.extent(self.spaces.of_body(number), points.iter().copied());
             let stiffness = part(&points) * modulus * extent / nodes.len() as f64;

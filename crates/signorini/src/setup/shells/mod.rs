@@ -21,12 +21,13 @@ use joints::Joints;
 use super::names::Names;
 use super::quoted;
 use signorini_geometry::expansion::{
-    self, Expansion, ExpansionError, Joining, Place, Section, ShellCell, ShellSide, expand,
+    self, Expansion, ExpansionError, Joining, Place as Between, Section, ShellCell, ShellSide,
+    expand,
 };
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{Body, Case, Shell, Thickness};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_io::case::{Body, Case, ConstraintKind, DynamicMethod, Shell, Thickness};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::system::Director;
 use std::collections::{BTreeMap, HashMap};
 
@@ -64,6 +65,7 @@ impl Shells {
         if shells.is_empty() {
             return Some((mesh, Self::default()));
         }
+        not_built(case, found);
         let none = Self::default();
         let names = Names::of_surfaces(case, &mesh, &none, found);
         let thicknesses = names.thicknesses(case, found);
@@ -100,8 +102,8 @@ impl Shells {
             .flat_map(|of| of.cells.iter().copied())
             .collect();
         let parents = expansion.places.iter().map(|place| match place {
-            Place::Edge(ends) => ends.to_vec(),
-            Place::Cell(shell) => {
+            Between::Edge(ends) => ends.to_vec(),
+            Between::Cell(shell) => {
                 let cell = cells.get(*shell).map_or(&[][..], |&cell| given.cell(cell));
                 cell.to_vec()
             }
@@ -213,6 +215,43 @@ impl Shells {
         let number = *self.by_label.get(&label)?;
         let side = ShellSide::numbered(side.checked_sub(1)?);
         Some(self.expansion.as_ref()?.faces(number, side).collect())
+    }
+}
+
+/// Refuses what shells do not do yet.
+fn not_built(case: &Case, found: &mut Diagnostics) {
+    let mut refuse = |text: &str, place: &Place, remark: &str| {
+        found.push(Diagnostic::error(&codes::NOT_BUILT, text).at(place, remark));
+    };
+    for step in &case.steps {
+        let method = step.dynamics.as_ref().map(|dynamics| dynamics.method);
+        if let Some(DynamicMethod::Explicit { .. }) = method {
+            let text = "shells have no masses at nodes for explicit steps yet";
+            refuse(text, &step.place, "use an implicit method");
+        }
+    }
+    for body in case.bodies.iter().filter(|body| body.shell.is_some()) {
+        let named = body.material.as_ref();
+        let material = case
+            .materials
+            .iter()
+            .find(|one| named.is_some_and(|name| one.name.value == name.value));
+        if material.is_some_and(|one| one.damping.stiffness > 0.0) {
+            refuse(
+                "stiffness damping of shells is not built yet",
+                &body.place,
+                "its material has some",
+            );
+        }
+    }
+    for one in &case.constraints {
+        if let ConstraintKind::Pretension { on, .. } = &one.kind {
+            refuse(
+                "pretension does not cut models with shells yet",
+                &on.place,
+                "",
+            );
+        }
     }
 }
 
