@@ -51,6 +51,9 @@ const SOME: Range = (1, usize::MAX);
 const AT_MOST_ONE: Range = (0, 1);
 const ONE: Range = (1, 1);
 
+/// A temperature with its change along the normal of shells.
+const WITH_GRADIENT: &str = "node or set, temperature, gradient of shells";
+
 /// Whether a card without data lines is refused here.
 pub(super) fn needs_data(card: &Statement) -> bool {
     form(card).is_some_and(|form| form.lines.0 > 0)
@@ -76,7 +79,7 @@ fn form(card: &Statement) -> Option<Form> {
         ),
         "DSLOAD" => each(some, (3, 3), "surface, P, pressure"),
         "TEMPERATURE" if card.peek("FILE").is_some() => return None,
-        "TEMPERATURE" => each(some, (2, 3), "node or set, temperature, gradient of shells"),
+        "TEMPERATURE" => each(some, (2, 3), WITH_GRADIENT),
         "CHANGEFRICTION"
         | "CHANGESOLIDSECTION"
         | "CHANGESURFACEBEHAVIOR"
@@ -139,9 +142,7 @@ fn form(card: &Statement) -> Option<Form> {
         ),
         "FREQUENCY" => each(ONE, (1, 3), "number of frequencies, lowest, highest"),
         "INITIALCONDITIONS" => match card.peek("TYPE").map(compared).as_deref() {
-            Some("TEMPERATURE") => {
-                each(SOME, (2, 3), "node or set, temperature, gradient of shells")
-            }
+            Some("TEMPERATURE") => each(SOME, (2, 3), WITH_GRADIENT),
             Some("VELOCITY") => each(SOME, (3, 3), "node or set, component, velocity"),
             Some("STRESS" | "PLASTICSTRAIN") if card.peek("USER").is_none() => {
                 each(SOME, (3, 8), "element, integration point, six components")
@@ -245,6 +246,10 @@ impl Translation<'_> {
     pub fn forms(&mut self) {
         for card in &self.deck.statements {
             if let Some(form) = form(card) {
+                let form = match self.shell_nodes.is_empty() && form.words == WITH_GRADIENT {
+                    true => each(form.lines, (2, 2), "node or set, temperature"),
+                    false => form,
+                };
                 self.lines_of(card, form);
             }
             if card.keyword == "DLOAD" {

@@ -1018,7 +1018,7 @@ class InitialAt(Table):
 
     _toml = "initial.at"
     gradient: Key[float | None, float] = Key(
-        "Of shells: change of temperature per length along their normal; `temperature` is that of the middle surface",
+        "Of shells: change of temperature per length along their normal; `temperature` is that of the middle surface; absent: 0",
         "number",
     )
     on: Key[str | None, str] = Key("The set or group", "text")
@@ -2342,7 +2342,7 @@ class Temperature(Table):
 
     _toml = "step.temperature"
     gradient: Key[float | None, float] = Key(
-        "Of shells: change of temperature per length along their normal, with the course of `value`, which is that of the middle surface",
+        "Of shells: change of temperature per length along their normal, with the course of `value`, which is that of the middle surface; absent: 0",
         "number",
     )
     on: Key[str | None, str] = Key("The set or group; \"all\" is everything", "text")

@@ -314,7 +314,7 @@ pub struct TemperatureAt {
     pub on: Name,
     /// Their temperature.
     pub temperature: f64,
-    /// Of shells: its change per length along their normal.
+    /// Of shells: its change per length along their normal; none: 0.
     pub gradient: Option<f64>,
     /// Where it was written.
     pub place: Place,

@@ -402,7 +402,7 @@ pub struct Temperature {
     pub on: Name,
     /// Their course over the step.
     pub value: Motion,
-    /// Of shells: change of temperature per length along their normal, with the same course.
+    /// Of shells: change of temperature per length along their normal, with the same course; none: 0.
     pub gradient: Option<Spanned<f64>>,
     /// Where it was written.
     pub place: Place,

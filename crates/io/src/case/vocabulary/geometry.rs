@@ -260,7 +260,7 @@ static INITIAL_AT: Table = Table {
         key(
             "gradient",
             ANY,
-            "of shells: change of temperature per length along their normal; `temperature` is that of the middle surface",
+            "of shells: change of temperature per length along their normal; `temperature` is that of the middle surface; absent: 0",
         ),
     ],
     rules: &[],

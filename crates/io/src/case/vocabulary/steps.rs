@@ -496,7 +496,7 @@ static TEMPERATURE: Table = Table {
         key(
             "gradient",
             ANY,
-            "of shells: change of temperature per length along their normal, with the course of `value`, which is that of the middle surface",
+            "of shells: change of temperature per length along their normal, with the course of `value`, which is that of the middle surface; absent: 0",
         ),
     ],
     rules: &[],

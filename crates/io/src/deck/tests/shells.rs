@@ -496,10 +496,8 @@ fn pressures_push_along_the_normal_and_edges_inwards() {
         assert_eq!(on(load, &case), [(1, Side::Numbered(side))], "{label}");
     }
     // sides of solids keep their numbers; a load that ends is one of nothing
-    let two = format!(
-        "*DLOAD\nCUBE, P2, 3.\nSHEET, P, 4.\nSHEET, EDNOR2, 5.\n*END STEP\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n"
-    );
-    let both = case(&on_cube(&step(&two)));
+    let two = "*DLOAD\nCUBE, P2, 3.\nSHEET, P, 4.\nSHEET, EDNOR2, 5.\n*END STEP\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n";
+    let both = case(&on_cube(&step(two)));
     let sides: Vec<_> = both.steps[0]
         .loads
         .iter()
@@ -583,7 +581,7 @@ fn temperatures_of_shells_have_a_gradient() {
     refuses(&[
         (
             cube("C3D8", &step(of_solids)),
-            "a gradient of temperature at nodes that belong to no shell",
+            "*TEMPERATURE takes 2 values on a line, found 3",
         ),
         (
             on_cube(&step(of_solids)),
