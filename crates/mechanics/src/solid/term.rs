@@ -185,11 +185,8 @@ impl Solid {
             block.rigidity = block.rigidities(&reference, space, material.modulus());
             block.of_middle = block.rigidities_of_middles(&reference, material.modulus());
             let ncell = block.labels.len();
-            chunks.extend(
-                (0..ncell)
-                    .step_by(CHUNK)
-                    .map(|first| (number, first, (first + CHUNK).min(ncell))),
-            );
+            let begins = (0..ncell).step_by(CHUNK);
+            chunks.extend(begins.map(|first| (number, first, (first + CHUNK).min(ncell))));
         }
         Ok(Self {
             name: name.to_string(),
