@@ -266,6 +266,9 @@ impl Context<'_> {
                         directors: self.elimination.directors(),
                     })?;
                     solid.set_retardation(mass.retardation);
+                    if self.rubs {
+                        solid.keep_stress();
+                    }
                     solid.set_activity(self.activity.clone());
                     for (step, material) in later {
                         solid.change(step, material)?;

@@ -36,6 +36,7 @@ mod loads;
 mod parts;
 mod reduction;
 mod rigid_masses;
+mod satisfied;
 mod spaces;
 mod steps;
 mod substance;
@@ -194,6 +195,7 @@ impl Model {
         let temperature = heat::given(parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
+            rubs: contacts.iter().any(|contact| contact.friction.is_some()),
             singles: &singles,
             reference: &reference,
             owner: &owner,

@@ -279,15 +279,35 @@ impl Cells {
             .collect()
     }
 
-    /// Whether some cell is thin, by the map from its reference element at the centre.
-    pub fn has_thin(&self, reference: &[Vec3]) -> bool {
+    /// Whether most cells are thin, by the map from their reference element at the centre: a few flat ones are no thin body.
+    pub fn is_thin(&self, reference: &[Vec3]) -> bool {
         let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
         let mut x: Vec<Vec3> = Vec::new();
-        self.all_ends().chunks_exact(self.nnode).any(|nodes| {
+        let is_thin = |nodes: &&[NodeId]| {
             x.clear();
             x.extend(nodes.iter().map(at));
             self.points.slenderness(&x) > THIN
-        })
+        };
+        let thin = self.all_ends().chunks_exact(self.nnode).filter(is_thin);
+        2 * thin.count() > self.labels.len()
+    }
+
+    /// Gives cells that are there their history, what they have at the start, and their bounds of rounding.
+    pub fn complete(
+        &mut self,
+        body: &str,
+        material: &dyn Material,
+        initial: &[AtStart],
+        (space, reference): (Idealisation, &[Vec3]),
+    ) -> Result<(), SolidError> {
+        if space == Idealisation::Axisymmetric {
+            self.radii(body, reference)?;
+        }
+        self.start(material);
+        self.begin(body, initial)?;
+        self.rigidity = self.rigidities(reference, space, material.modulus());
+        self.of_middle = self.rigidities_of_middles(reference, material.modulus());
+        Ok(())
     }
 
     /// Checks that no node lies beyond the axis, and no quadrature point on it.

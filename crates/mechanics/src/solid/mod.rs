@@ -54,7 +54,7 @@
 //! # Thin bodies
 //!
 //! In static steps at finite strain the geometric stiffness `δ_ik S_ab` of (E2) takes the stress that the last Newton correction
-//! predicted, (E36) of `kernel::predicted`: by itself in bodies with an element whose extents differ by more than a factor of five.
+//! predicted, (E36) of `kernel::predicted`: by itself in shells, and where nothing rubs in bodies most of whose elements have extents that differ by more than a factor of five.
 //! Laws with a history and elements with another remedy than the solid-shell take the stress of the iterate.
 //!
 //! # Shells

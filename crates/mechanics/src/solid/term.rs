@@ -175,15 +175,10 @@ impl Solid {
         let mut blocks: Vec<Cells> = blocks.into_iter().map(|(_, c)| c).collect();
         let (mut chunks, mut is_thin) = (Vec::new(), false);
         for (number, block) in blocks.iter_mut().enumerate() {
-            if space == Idealisation::Axisymmetric {
-                block.radii(name, &reference)?;
-            }
-            block.start(material.as_ref());
-            block.begin(name, initial)?;
+            let situated = (space, &reference[..]);
+            block.complete(name, material.as_ref(), initial, situated)?;
             block.orient(name, axes.as_ref(), &places[number], &reference)?;
-            is_thin |= locking == Locking::Shell || block.has_thin(&reference);
-            block.rigidity = block.rigidities(&reference, space, material.modulus());
-            block.of_middle = block.rigidities_of_middles(&reference, material.modulus());
+            is_thin |= locking == Locking::Shell || block.is_thin(&reference);
             let ncell = block.labels.len();
             let begins = (0..ncell).step_by(CHUNK);
             chunks.extend(begins.map(|first| (number, first, (first + CHUNK).min(ncell))));
@@ -208,6 +203,13 @@ impl Solid {
             is_thin,
             predicts: false,
         })
+    }
+
+    /// Lets the tangent take the stress of the iterate unless predicted ones are asked for: thin solids that rub stick and slip by
+    /// turns otherwise.
+    pub fn keep_stress(&mut self) {
+        let is_shell = |block: &Cells| !block.ends.is_empty();
+        self.is_thin &= self.blocks.iter().all(is_shell);
     }
 
     /// Identifies the cells that take part.

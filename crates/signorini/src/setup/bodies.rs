@@ -196,6 +196,7 @@ fn body_part(
         thick(case, body, (plane, &cells), names, found)?;
     }
     let heat = heat::of_body((case, names), (body, &cells), part, found);
+    let (integration, locking) = treatment(body);
     Some(BodyPart {
         name,
         kind: BodyKind::Solid {
@@ -203,14 +204,8 @@ fn body_part(
             later,
             density,
             mass,
-            integration: match &body.shell {
-                Some(shell) => Integration::Through(shell.points),
-                None => integration(body.integration),
-            },
-            locking: match &body.shell {
-                Some(_) => Locking::Shell,
-                None => locking(body.locking.value),
-            },
+            integration,
+            locking,
             space: plane.map(|plane| plane.space),
             profile: plane.and_then(|plane| plane.profile.clone()),
             linear_temperatures: body.temperatures == Temperatures::Linear,
@@ -227,6 +222,14 @@ fn body_part(
         },
         cells,
     })
+}
+
+/// How its elements are integrated, and what is done against locking.
+const fn treatment(body: &Body) -> (Integration, Locking) {
+    match &body.shell {
+        Some(shell) => (Integration::Through(shell.points), Locking::Shell),
+        None => (integration(body.integration), locking(body.locking.value)),
+    }
 }
 
 /// A warning of thicknesses at nodes that no body takes.

@@ -54,7 +54,6 @@ use cuts::Cuts;
 use general::{General, Pair, Source};
 use names::Names;
 use origin::Origin;
-use shells::Shells;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_io::case::{Case, FreeMotions, Stabilize};
 use signorini_io::deck;
@@ -200,9 +199,7 @@ fn build_of(
         return Err(found);
     }
     let origin = Origin::new(&case, &mesh, own);
-    let Some((mut mesh, shells)) = Shells::expand(&case, mesh, &mut found) else {
-        return Err(found);
-    };
+    let (mut mesh, shells, mut found) = shells::expanded(&case, mesh, found)?;
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let mut names = Names::new(&case, &mesh, &shells, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);

@@ -1,6 +1,6 @@
 //! What acts on shells: moments at nodes, forces along edges.
 
-use super::Shells;
+use super::solids::Shells;
 use crate::setup::quoted;
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;

@@ -1,6 +1,6 @@
 //! Rotations that supports hold at nodes of shells: directors that do not turn.
 
-use super::Shells;
+use super::solids::Shells;
 use signorini_geometry::expansion::Director;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;

@@ -1,6 +1,6 @@
 //! Temperatures of shells: those of the middle, and a change along the normal.
 
-use super::Shells;
+use super::solids::Shells;
 use signorini_geometry::expansion::Director;
 use signorini_geometry::mesh::NodeId;
 use signorini_mechanics::solve::Motion;

@@ -55,11 +55,9 @@ struct Built {
 }
 
 fn try_parts(text: &str) -> Result<Built, Diagnostics> {
-    let (mut case, mut found) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary())?;
+    let (mut case, found) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary())?;
     let (mesh, _) = read_mesh_of(&case, Path::new("."))?;
-    let Some((mut mesh, shells)) = Shells::expand(&case, mesh, &mut found) else {
-        return Err(found);
-    };
+    let (mut mesh, shells, mut found) = shells::expanded(&case, mesh, found)?;
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let names = Names::new(&case, &mesh, &shells, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);

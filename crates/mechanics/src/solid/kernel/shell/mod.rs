@@ -444,7 +444,7 @@ fn seen(at: &AtPoint, strain: Sym3, finite: bool) -> (Mat3, f64) {
     let f = rotation * assumed.to_mat3();
     let mut h = f;
     for (axis, row) in h.rows.iter_mut().enumerate() {
-        *row = *row - Vec3::unit(axis);
+        *row -= Vec3::unit(axis);
     }
     (h, f.determinant())
 }
