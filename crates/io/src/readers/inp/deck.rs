@@ -1,12 +1,12 @@
 //! What a deck says, card by card, before any number or name in it is looked up.
 
-use super::Part;
 use super::card::{Card, Fields, Parameter, at_most, key, not_a_number, real, text, whole};
 use super::definition::{Definition, Family, Region, Side};
 use super::directory::ElementCard;
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
 use super::parameters::{judge, not_read};
+use super::part::Part;
 use super::statement::{Statement, place_of};
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;

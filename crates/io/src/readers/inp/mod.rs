@@ -33,6 +33,7 @@ mod directory;
 mod kind;
 mod lines;
 mod parameters;
+mod part;
 mod spelling;
 mod statement;
 #[cfg(test)]
@@ -47,6 +48,7 @@ pub use statement::{Field, Statement};
 use super::{MeshError, Place};
 use crate::fs::{Fs, RealFs};
 use lines::Files;
+use part::Part;
 use signorini_geometry::mesh::Mesh;
 
 /// Reads a mesh, with notes. `name` is the path of the deck: files that it includes are looked
@@ -79,28 +81,6 @@ pub fn read_shells(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), Mesh
     let whole = read_all(&RealFs, name, bytes, Part::MeshOfShells)?;
     Ok((whole.mesh, whole.notes))
 }
-
-/// What of a deck is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
-    Mesh,
-    MeshOfShells,
-    Whole,
-}
-
-impl Part {
-    /// Whether a card that is not of the mesh is kept.
-    fn keeps(self, keyword: &str) -> bool {
-        match self {
-            Self::Mesh => false,
-            Self::MeshOfShells => keyword == SHELL_SECTION,
-            Self::Whole => !["ENDPART", "ENDINSTANCE", "INCLUDE"].contains(&keyword),
-        }
-    }
-}
-
-/// The card that makes shells of elements.
-const SHELL_SECTION: &str = "SHELLSECTION";
 
 /// A real number as Fortran writes it; finite.
 #[must_use]

@@ -6,13 +6,13 @@ mod sets;
 mod shells;
 mod space;
 
-use super::Part;
 use super::card::key;
 use super::deck::{Deck, Scope};
 use super::definition::Family;
 use super::directory::{Directory, Special};
 use super::kind::{Kind, Role};
 use super::lines::{Files, Spot};
+use super::part::Part;
 use super::statement::Statement;
 use crate::readers::MeshError;
 use crate::readers::labels::Lookup;

@@ -7,8 +7,8 @@ use super::{Assembly, Result, in_words};
 use crate::readers::MeshError;
 use crate::readers::inp::definition::{Definition, Family, Side};
 use crate::readers::inp::kind::Role;
+use crate::readers::inp::part::{Part, SHELL_SECTION};
 use crate::readers::inp::statement::Statement;
-use crate::readers::inp::{Part, SHELL_SECTION};
 use signorini_geometry::mesh::{CellId, Face};
 
 /// The face on the negative side of a shell, from 0.
