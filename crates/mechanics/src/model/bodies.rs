@@ -1,5 +1,5 @@
 use super::heat;
-use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
+use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Parts, Unheld};
 use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
@@ -37,8 +37,10 @@ pub(super) fn owners(
     Ok(owner)
 }
 
-/// The body of each node; `u32::MAX` where there is none.
-pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart], directors: &Directors) -> Vec<u32> {
+/// The body of each node, `u32::MAX` where there is none, and the directors of all.
+pub(super) fn nodes_by_body(parts: &Parts<'_>) -> (Vec<u32>, Directors) {
+    let (mesh, bodies) = (parts.mesh, &parts.bodies);
+    let directors = Directors::new(parts.directors.clone(), mesh.nnode());
     let mut of = vec![u32::MAX; mesh.nnode()];
     for (number, body) in bodies.iter().enumerate() {
         for &cell in &body.cells {
@@ -50,7 +52,7 @@ pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart], directors: &Direct
             }
         }
     }
-    of
+    (of, directors)
 }
 
 /// The corners that each node of quadratic cells is halfway between, `u32::MAX` where it is a corner; empty where there is
@@ -266,7 +268,7 @@ impl Context<'_> {
                         directors: self.elimination.directors(),
                     })?;
                     solid.set_retardation(mass.retardation);
-                    if self.rubs {
+                    if self.ties.rubs {
                         solid.keep_stress();
                     }
                     solid.set_activity(self.activity.clone());

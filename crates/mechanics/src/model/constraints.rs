@@ -17,8 +17,8 @@ use crate::connector::{
 };
 use crate::solve::{Motion, Step};
 use crate::system::{
-    Dof, DofName, Elimination, FieldId, Idealisation, Layout, NO_DOF, Relation, RigidBody, Term,
-    Turn,
+    Directors, Dof, DofName, Elimination, FieldId, Idealisation, Layout, NO_DOF, Relation,
+    RigidBody, Term, Turn,
 };
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::{Carrier, RigidId};
@@ -39,6 +39,8 @@ pub(super) struct Ties {
     pub rigid: BTreeSet<NodeId>,
     /// Nodes that a constraint or spring holds.
     pub nodes: BTreeSet<NodeId>,
+    /// Whether a contact has friction.
+    pub rubs: bool,
     /// The first multiplier of each constraint.
     first: Vec<usize>,
     /// The dof by which right-hand sides grow, and its value at the end of the first step.
@@ -87,7 +89,11 @@ impl Followers<'_> {
     }
 
     /// The carriers with what follows them as rigid bodies do, and what else is tied.
-    pub fn elimination(&self, layout: &Layout) -> Result<(Elimination, Ties), ModelError> {
+    pub fn elimination(
+        &self,
+        layout: &Layout,
+        directors: Directors,
+    ) -> Result<(Elimination, Ties), ModelError> {
         let mut nodes = self.rigid_nodes()?;
         let on_rigid = nodes.iter().flatten().copied().collect();
         let mut rigid: Vec<bool> = nodes.iter().map(|n| !n.is_empty()).collect();
@@ -123,6 +129,7 @@ impl Followers<'_> {
                 nodes: nodes.into_iter().collect(),
             });
         let mut elimination = Elimination::new(bodies.collect(), layout.nnode());
+        elimination.take_directors(directors);
         let mut ties = self.ties(layout, &rigid);
         ties.rigid = on_rigid;
         for constraint in self.constraints {
@@ -150,15 +157,8 @@ impl Followers<'_> {
                     }
                 }
                 ConstraintKind::Directors { halves, carrier } => {
-                    elimination.guide(&self.mesh.points, halves.iter().map(|h| h.0), *carrier);
-                    elimination.pull(*carrier);
-                    for &(half, stretch) in halves {
-                        elimination.pull(stretch);
-                        elimination.stretch(*carrier, half, layout.translation(stretch, 0));
-                        ties.free.insert(layout.translation(stretch, 0));
-                    }
-                    let about = (0..3).map(|axis| layout.rotation(*carrier, axis));
-                    ties.free.extend(about);
+                    let to = (&mut elimination, &mut ties);
+                    self.turn_directors((halves, *carrier), layout, to);
                 }
                 ConstraintKind::Distributing { carrier, .. }
                 | ConstraintKind::Twist { carrier, .. } => elimination.pull(*carrier),
@@ -183,6 +183,24 @@ impl Followers<'_> {
             ties.free = free;
         }
         Ok((elimination, ties))
+    }
+
+    /// Lets halves of directors turn with a carrier and stretch.
+    fn turn_directors(
+        &self,
+        (halves, carrier): (&[(NodeId, RigidId)], RigidId),
+        layout: &Layout,
+        (elimination, ties): (&mut Elimination, &mut Ties),
+    ) {
+        elimination.guide(&self.mesh.points, halves.iter().map(|h| h.0), carrier);
+        elimination.pull(carrier);
+        for &(half, stretch) in halves {
+            elimination.pull(stretch);
+            elimination.stretch(carrier, half, layout.translation(stretch, 0));
+            ties.free.insert(layout.translation(stretch, 0));
+        }
+        ties.free
+            .extend((0..3).map(|axis| layout.rotation(carrier, axis)));
     }
 
     /// Nodes of the rigid bodies of each carrier.
@@ -255,6 +273,10 @@ impl Followers<'_> {
         let mut ties = Ties {
             followed: rigid.to_vec(),
             placed: rigid.to_vec(),
+            rubs: self
+                .contacts
+                .iter()
+                .any(|contact| contact.friction.is_some()),
             ..Ties::default()
         };
         let mut next = 0;
@@ -489,6 +511,7 @@ impl Followers<'_> {
             relations.push(relation);
         }
         elimination.relate(layout, relations, ties.course.map(|c| c.0));
+        elimination.follow_directors(layout);
         Ok(())
     }
 

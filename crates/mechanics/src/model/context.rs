@@ -15,8 +15,6 @@ use std::sync::Arc;
 /// What the parts of a model are made from.
 pub(super) struct Context<'a> {
     pub mesh: &'a Mesh,
-    /// Whether a contact has friction.
-    pub rubs: bool,
     pub singles: &'a Singles<'a>,
     pub reference: &'a Arc<[Vec3]>,
     pub owner: &'a HashMap<CellId, usize>,

@@ -63,7 +63,7 @@ pub use summary::{
 use crate::contact::Interface;
 use crate::material::Material;
 use crate::solve::Step;
-use crate::system::{Directors, Elimination, Layout, System, Term};
+use crate::system::{Elimination, Layout, System, Term};
 use bodies::{between, nodes_by_body, owners};
 use constraints::Followers;
 use contact::{Sides, Source};
@@ -153,8 +153,7 @@ impl Model {
         let (bodies, contacts) = (&parts.bodies, &parts.contacts);
         let owner = owners(mesh, bodies)?;
         let activity = Arc::new(activity::activity(mesh, bodies, &owner, &parts.steps)?);
-        let directors = Directors::new(parts.directors.clone(), mesh.nnode());
-        let body_of_node = nodes_by_body(mesh, bodies, &directors);
+        let (body_of_node, directors) = nodes_by_body(&parts);
         let between = between(mesh, bodies);
         let spaces = Spaces::new(space, &owner, &body_of_node, bodies);
         let followers = Followers {
@@ -167,8 +166,7 @@ impl Model {
             contacts,
         };
         let mut layout = heat::with_temperatures(followers.layout(), &parts.steps);
-        let (mut elimination, ties) = followers.elimination(&layout)?;
-        elimination.take_directors(directors);
+        let (elimination, ties) = followers.elimination(&layout, directors)?;
         let poses = elimination.initial_poses();
         let joint = contact::Steps::new(contacts, &parts.steps, &activity, parts.tolerances());
         let rubs = joint.rubbing();
@@ -195,7 +193,6 @@ impl Model {
         let temperature = heat::given(parts.temperature, &parts.steps);
         let mut context = Context {
             mesh,
-            rubs: contacts.iter().any(|contact| contact.friction.is_some()),
             singles: &singles,
             reference: &reference,
             owner: &owner,
@@ -217,7 +214,6 @@ impl Model {
         let (mut steps, loads) = context.steps(parts.steps, contacts)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
-        elimination.follow_directors(&layout);
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
         let loads = loads::terms(&context, &steps, loads)?;
         let held_by_contact =

@@ -1,6 +1,7 @@
 //! Cells whose unknowns are those of directors: the nodes of the mesh, and what rounding does to their forces.
 
 use super::cells::Cells;
+use super::error::SolidError;
 use super::scratch::Scratch;
 use crate::system::{Directors, Sink};
 use signorini_geometry::mesh::NodeId;
@@ -16,16 +17,25 @@ pub(super) fn to_directors(places: &mut [Vec3]) {
 }
 
 impl Cells {
-    /// Adds the nodes of a cell; with directors its unknowns are theirs. `None` where a node is at the end of none.
-    pub fn push(&mut self, nodes: &[NodeId], directors: Option<&Directors>) -> Option<()> {
-        match directors {
-            None => self.nodes.extend_from_slice(nodes),
-            Some(directors) => {
-                self.nodes.extend(directors.carriers(nodes)?);
-                self.ends.extend_from_slice(nodes);
-            }
-        }
-        Some(())
+    /// Adds the nodes of a cell; with directors its unknowns are theirs.
+    pub fn push(
+        &mut self,
+        body: &str,
+        (nodes, label): (&[NodeId], u64),
+        directors: Option<&Directors>,
+    ) -> Result<(), SolidError> {
+        let Some(directors) = directors else {
+            self.nodes.extend_from_slice(nodes);
+            return Ok(());
+        };
+        let carriers = directors.carriers(nodes);
+        self.nodes
+            .extend(carriers.ok_or_else(|| SolidError::NoDirector {
+                body: body.to_string(),
+                label,
+            })?);
+        self.ends.extend_from_slice(nodes);
+        Ok(())
     }
 
     /// The nodes of a cell in the mesh: where it is, what temperatures it has, and what results are carried to.

@@ -163,12 +163,7 @@ impl Solid {
             places[at].push(place);
             let of_block = &mut blocks[at].1;
             let directors = (locking == Locking::Shell).then_some(directors);
-            of_block
-                .push(mesh.cell(id), directors)
-                .ok_or_else(|| SolidError::NoDirector {
-                    body: name.to_string(),
-                    label,
-                })?;
+            of_block.push(name, (mesh.cell(id), label), directors)?;
             of_block.labels.push(label);
             of_block.ids.push(id);
         }

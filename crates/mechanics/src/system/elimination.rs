@@ -1,6 +1,7 @@
 //! Unknowns that follow others: rigid bodies and couplings (E1), equations (E3).
 
-use super::{Directors, Dof, Layout, NO_DOF, State};
+use super::director::Directors;
+use super::{Dof, Layout, NO_DOF, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Pose, RigidId};
 use signorini_geometry::tensor::{Mat3, Vec3};

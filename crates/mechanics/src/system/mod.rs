@@ -53,6 +53,7 @@ mod conformance;
 mod course;
 mod director;
 mod elimination;
+mod following;
 mod frame;
 mod heat_flows;
 mod idealisation;

@@ -209,10 +209,7 @@ fn body_part(
             space: plane.map(|plane| plane.space),
             profile: plane.and_then(|plane| plane.profile.clone()),
             linear_temperatures: body.temperatures == Temperatures::Linear,
-            at_nodes: match body.at_nodes {
-                case::AtNodes::Linear => AtNodes::Linear,
-                case::AtNodes::Element => AtNodes::Element,
-            },
+            at_nodes: at_nodes(body.at_nodes),
             initial: initial(case, names, &cells),
             heat,
             axes: match body.orientation {
@@ -222,6 +219,13 @@ fn body_part(
         },
         cells,
     })
+}
+
+const fn at_nodes(word: case::AtNodes) -> AtNodes {
+    match word {
+        case::AtNodes::Linear => AtNodes::Linear,
+        case::AtNodes::Element => AtNodes::Element,
+    }
 }
 
 /// How its elements are integrated, and what is done against locking.
