@@ -160,8 +160,20 @@ impl Interface {
         }
     }
 
-    /// The projector onto directions along which a node has unknowns of its own that are not prescribed.
+    /// The projector onto directions along which a node has unknowns of its own that are not prescribed; ends of directors
+    /// have those of the middle and of the half difference.
     fn free_directions(&self, node: NodeId) -> Mat3 {
+        match self.elimination.directors().at_end(node) {
+            Some(director) => {
+                let [middle, half] = [director.middle, director.half].map(|of| self.own_free(of));
+                range(middle + half)
+            }
+            None => self.own_free(node),
+        }
+    }
+
+    /// The same of a node that ends no director.
+    fn own_free(&self, node: NodeId) -> Mat3 {
         let own = [0, 1, 2].map(|axis| self.layout.node(node, axis));
         let moves = own.map(|dof| {
             let mut along = Vec3::ZERO;

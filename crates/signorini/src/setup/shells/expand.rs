@@ -36,7 +36,8 @@ pub(in crate::setup) fn expanded(
     }
     not_built(case, &mut found);
     let none = Shells::default();
-    let names = Names::of_surfaces(case, &mesh, &none, &mut found);
+    // sides of shells are not there yet; what is wrong with sets is reported when they are
+    let names = Names::of_surfaces(case, &mesh, &none, &mut Diagnostics::new());
     let thicknesses = names.thicknesses(case, &mut found);
     // 0 where the case gives none
     let known = |&thickness: &f64| {
