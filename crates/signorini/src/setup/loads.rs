@@ -66,6 +66,8 @@ pub(super) struct Context<'a> {
     pub names: &'a Names<'a>,
     pub carriers: &'a Carriers,
     pub bodies: &'a [BodyPart],
+    /// Whether displacements of the step are of any size.
+    pub nonlinear: bool,
 }
 
 impl Context<'_> {
@@ -133,6 +135,18 @@ impl Context<'_> {
         nodes.retain(|node| frame(node).is_none());
         let label = |node| self.names.label(node);
         let is_left = !nodes.is_empty();
+        if is_left && self.nonlinear {
+            let text = format!(
+                "moments on nodes of shells, such as those of {}",
+                quoted(&load.on)
+            );
+            let one = Diagnostic::error(&codes::NOT_BUILT, text);
+            let one = one.at(
+                &load.what,
+                "they do not turn with the shell in nonlinear steps yet",
+            );
+            found.push(one.help("tie two rows of nodes to a [reference] by a kinematic [[constraint]], and load that"));
+        }
         let acting = is_left.then(|| moments(shells, (load, moment), &nodes, label, found));
         Some(acting.flatten().into_iter().chain(on_frames).collect())
     }

@@ -58,7 +58,7 @@ impl Builder<'_> {
                 vibration: self.vibration(step, found),
                 physics: heat::physics(step),
                 changes: self.changes((number, step), &mut rotations, found),
-                loads: self.loads(number, step, &mut couplings, found),
+                loads: self.loads((number, nonlinear), step, &mut couplings, found),
                 contacts: contacts.of(step, found),
                 temperatures: self.temperatures(step, found),
                 freed_temperatures: self.freed_temperatures(step, found),
@@ -229,7 +229,7 @@ impl Builder<'_> {
 
     fn loads(
         &self,
-        number: usize,
+        (number, nonlinear): (usize, bool),
         step: &Step,
         couplings: &mut Vec<Coupling>,
         found: &mut Diagnostics,
@@ -241,6 +241,7 @@ impl Builder<'_> {
                 names: self.names,
                 carriers: self.carriers,
                 bodies: self.bodies,
+                nonlinear,
             };
             for (number, acting) in context.load(load, found).into_iter().enumerate() {
                 let name = loads::name(step, place, load);

@@ -77,6 +77,14 @@ fn not_built(case: &Case, found: &mut Diagnostics) {
             let text = "shells have no masses at nodes for explicit steps yet";
             refuse(text, &step.place, "use an implicit method");
         }
+        if step.thermal.is_some() {
+            let text = "heat in shells is not built yet";
+            refuse(
+                text,
+                &step.place,
+                "prescribe temperatures by [[step.temperature]] in static steps",
+            );
+        }
     }
     for body in case.bodies.iter().filter(|body| body.shell.is_some()) {
         let named = body.material.as_ref();

@@ -55,7 +55,7 @@ fn drills(load: &Load, node: u64) -> Diagnostic {
         &load.what,
         "a shell takes no moment about its normal at a point",
     )
-    .help("tie an edge to a [reference] by a [[constraint]], and load that")
+    .help("tie two rows of nodes to a [reference] by a kinematic [[constraint]], and load that")
 }
 
 /// A force per length of edges as pressures on their faces, one for each thickness.
