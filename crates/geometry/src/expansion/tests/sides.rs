@@ -53,7 +53,7 @@ fn brick_and_sheets() -> (Mesh, Vec<ShellCell>) {
             Set {
                 faces: vec![Face {
                     cell: second,
-                    side: 1,
+                    side: 3,
                 }],
                 ..Set::default()
             },
