@@ -1,4 +1,4 @@
-//! Inner products, starts of iterations, and small symmetric eigenproblems.
+//! Inner products, and small symmetric eigenproblems.
 
 use crate::error::LinearError;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -54,17 +54,4 @@ pub(crate) fn eigen(matrix: &[Vec<f64>], n: usize) -> Result<Vec<(f64, Vec<f64>)
     let mut pairs: Vec<(f64, Vec<f64>)> = (0..n).map(pair).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(pairs)
-}
-
-/// Numbers of both signs with sizes from 0.5 to 1.5, in no order that a matrix might have: multiples of the golden ratio.
-pub(crate) fn scattered(n: usize) -> Vec<f64> {
-    let size = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
-    let signed = |e: usize| {
-        if e.is_multiple_of(2) {
-            size(e)
-        } else {
-            -size(e)
-        }
-    };
-    (0..n).map(signed).collect()
 }

@@ -9,7 +9,6 @@
 //! A factor comes as a function that solves with it, in place and in equilibrated unknowns.
 
 use super::softest::softest;
-use crate::dense::scattered;
 use crate::error::LinearError;
 use crate::matrix::Matrix;
 use crate::norm::largest;
@@ -226,4 +225,17 @@ impl Gathered {
             })
         }
     }
+}
+
+/// Numbers of both signs with sizes from 0.5 to 1.5, in no order that a matrix might have: multiples of the golden ratio.
+pub(crate) fn scattered(n: usize) -> Vec<f64> {
+    let size = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
+    let signed = |e: usize| {
+        if e.is_multiple_of(2) {
+            size(e)
+        } else {
+            -size(e)
+        }
+    };
+    (0..n).map(signed).collect()
 }

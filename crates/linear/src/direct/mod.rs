@@ -23,7 +23,6 @@ mod softest;
 pub use size::Factor;
 pub(crate) use size::{NUMBER, PATTERN};
 
-use crate::dense::scattered;
 use crate::error::LinearError;
 use crate::ordering::{self, Ordering};
 use crate::problem::{Problem, Symmetry, Values};
@@ -31,7 +30,7 @@ use crate::solver::{Iterative, LinearSolver, SolveReport};
 use cholesky::Cholesky;
 use faer::Par;
 use fronts::{Fronts, Precision};
-use gathered::{Breakdown, Gathered, NAMING_SHIFT};
+use gathered::{Breakdown, Gathered, NAMING_SHIFT, scattered};
 use lu::Lu;
 
 /// From so many equations on, the kernels share their work among threads.

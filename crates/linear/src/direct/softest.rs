@@ -11,7 +11,8 @@
 //!
 //! Of a free motion, `θ` is the rounding of sums whose terms are as large as `|x|ᵀ|A||x|`; these cancel over many entries.
 
-use crate::dense::{dot, eigen, scattered};
+use super::gathered::scattered;
+use crate::dense::{dot, eigen};
 use crate::matrix::Matrix;
 
 /// How many vectors span the softest motions: the six rigid ones of a body, and two that bend it.
