@@ -17,7 +17,6 @@
 //! One more solver: a file with a struct that implements [`LinearSolver`], and a line in [`SOLVERS`].
 
 mod condensation;
-mod dense;
 mod direct;
 mod error;
 mod forecast;

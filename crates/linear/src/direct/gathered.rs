@@ -3,16 +3,14 @@
 //!
 //! A free motion is looked for by two steps of inverse iteration and one correction with the matrix itself. A vector x
 //! with |A x| < 4·10⁻¹⁵ |A| |x| is one: round-off leaves some 10⁻¹⁶ of a free motion, growing with the root of the size,
-//! and 10⁻¹³ of the softest motion of most stiffness matrices. Where a body is so thin that its bending leaves no more than
-//! that, the energy of its softest motion decides, `super::softest`: the rounding of a free motion cancels in it.
+//! and 10⁻¹³ of the softest motion of a stiffness matrix whose entries still resolve it.
 //!
 //! A factor comes as a function that solves with it, in place and in equilibrated unknowns.
 
-use super::softest::softest;
 use crate::error::LinearError;
 use crate::matrix::Matrix;
 use crate::norm::largest;
-use crate::problem::{Kept, Problem, Symmetry, Values};
+use crate::problem::{Kept, Problem, Values};
 use crate::residual::Residual;
 use crate::solver::SolveReport;
 
@@ -24,10 +22,6 @@ const STILL: f64 = 1e-6;
 const FREE: f64 = 4e-15;
 /// this times the root of the number of equations (measured: a third of it at 30,000).
 const FREE_PER_ROOT: f64 = 0.5 * f64::EPSILON;
-/// The energy of a free motion over the sum of absolute values in it, at most: measured up to 0.14 units of rounding for
-/// thick and thin bodies of hex8 and hex20, free or on hinges, in any orientation and units; a clamped strip of 16 hex20
-/// with a thickness of 3·10⁻⁴ of its length has 0.94, one of hex8 7.7.
-const FREE_ENERGY: f64 = 0.4 * f64::EPSILON;
 /// What is added to the diagonal to find the free motion of a matrix whose factor broke down.
 pub(crate) const NAMING_SHIFT: f64 = 1e-10;
 
@@ -123,9 +117,6 @@ impl Gathered {
             let sum = largest(&product);
             self.matrix.multiply(&x, &mut product, |a| a);
             if largest(&product) < free * sum {
-                if self.is_soft(&mut back_substitute) {
-                    return Ok(None);
-                }
                 return Ok(self.moves_most(&x));
             }
             // a factor of A + shift gives a motion that is off by the shift: correct it with A itself
@@ -135,15 +126,6 @@ impl Gathered {
             }
         }
         Ok(None)
-    }
-
-    /// Whether the softest motion of a definite matrix takes more energy than rounding explains.
-    fn is_soft(&self, back_substitute: impl FnMut(&mut [f64])) -> bool {
-        let is_definite = self.kept.symmetry == Symmetry::Definite && self.matrix.symmetric;
-        let has_multipliers = self.kept.sign.iter().any(|&sign| sign < 0);
-        is_definite
-            && !has_multipliers
-            && softest(&self.matrix, back_substitute).is_some_and(|energy| energy > FREE_ENERGY)
     }
 
     /// The equation that moves most in a free motion, in equilibrated unknowns: a multiplier where no displacement moves, for

@@ -18,7 +18,6 @@ pub(crate) mod gathered;
 mod lu;
 mod registers;
 mod size;
-mod softest;
 
 pub use size::Factor;
 pub(crate) use size::{NUMBER, PATTERN};
