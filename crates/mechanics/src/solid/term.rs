@@ -175,11 +175,8 @@ impl Solid {
             block.orient(name, axes.as_ref(), &places[number], &reference)?;
             is_thin |= locking == Locking::Shell || block.is_thin(&reference);
             let ncell = block.labels.len();
-            chunks.extend(
-                (0..ncell)
-                    .step_by(CHUNK)
-                    .map(|first| (number, first, (first + CHUNK).min(ncell))),
-            );
+            let begins = (0..ncell).step_by(CHUNK);
+            chunks.extend(begins.map(|first| (number, first, (first + CHUNK).min(ncell))));
         }
         Ok(Self {
             name: name.to_string(),
