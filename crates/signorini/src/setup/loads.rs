@@ -121,7 +121,15 @@ impl Context<'_> {
         if force != Vec3::ZERO || acts_by_mass(acts.as_ref()) {
             return None;
         }
-        let mut nodes = self.names.nodes(&load.on, found).unwrap_or_default();
+        // names that are not there are reported where the load has its place
+        let nodes = self.names.nodes(&load.on, &mut Diagnostics::new());
+        let mut nodes = nodes.unwrap_or_default();
+        if nodes
+            .iter()
+            .all(|&node| shells.directors_at(node).is_empty())
+        {
+            return None;
+        }
         let frame = |node: &NodeId| {
             let first = self.carriers.first_of_joints();
             shells.joints().frame_of(*node, first)

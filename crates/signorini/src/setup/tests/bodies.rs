@@ -78,6 +78,40 @@ fn a_shell_has_a_solid_with_directors_in_its_place() {
 }
 
 #[test]
+fn a_moment_on_a_solid_next_to_a_shell_is_that_of_a_solid() {
+    let text = "[mesh]\nnodes = [[1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0], [5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], \
+        [8, 0, 1, 1], [9, 3, 0, 0], [10, 4, 0, 0], [11, 4, 1, 0], [12, 3, 1, 0]]\n\
+        elements = [{ id = 1, type = 'hex8', group = 'cube', nodes = [1, 2, 3, 4, 5, 6, 7, 8] },\n\
+        { id = 2, type = 'quad4', group = 'sheet', nodes = [9, 10, 11, 12] }]\n\
+        [sets]\nbase = { nodes = [1, 2, 3, 4] }\ntop = { nodes = [5, 6, 7, 8] }\n\
+        [material.m]\nmodel = 'linear-elastic'\nE = 1\nnu = 0\n\
+        [[body]]\ngroup = 'cube'\nmaterial = 'm'\n\
+        [[body]]\ngroup = 'sheet'\nmaterial = 'm'\nshell = { thickness = 0.1 }\n\
+        [[step]]\nname = 's'\ngeometry = 'GEOMETRY'\n[[step.fix]]\non = 'base'\nu = 'all'\n\
+        [[step.fix]]\non = 'sheet'\nu = 'all'\n[[step.load]]\non = 'ON'\nmoment = [0, 0, 1]\n";
+    let built = |on: &str, geometry: &str| {
+        let text = text.replace("ON", on).replace("GEOMETRY", geometry);
+        let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
+        let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
+        build(case, mesh).map_err(|found| found.plain())
+    };
+    for geometry in ["linear", "nonlinear"] {
+        assert!(
+            built("top", geometry).is_ok(),
+            "{:?}",
+            built("top", geometry).err()
+        );
+    }
+    let refused = built("sheet", "linear").err().unwrap();
+    assert!(
+        refused.contains("turns about the normal of the shell"),
+        "{refused}"
+    );
+    let refused = built("sheet", "nonlinear").err().unwrap();
+    assert!(refused.contains("do not turn with the shell"), "{refused}");
+}
+
+#[test]
 fn bodies_start_without_thermal_strain_unless_the_case_says_otherwise() {
     let heated = format!("{STEP}[[step.temperature]]\non = 'base'\nvalue = 120\n");
     let text = format!("{CUBES}{BASE}{heated}");
