@@ -7,7 +7,7 @@ use crate::system::GeometricStress;
 
 impl Solid {
     /// Whether the tangent takes predicted stresses in the present step: not those of laws with a history, nor where a
-    /// remedy against locking changes the strain.
+    /// remedy against locking other than the solid-shell changes the strain.
     pub(super) fn may_predict(&self) -> bool {
         let predicts = |block: &Cells| block.treatment(self.kinematics).predicts();
         self.step.may_predict()

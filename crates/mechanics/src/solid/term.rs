@@ -45,7 +45,7 @@ pub struct Solid {
     // whether the strain at which cells were added is taken off in the present step
     pub(super) subtracts: bool,
     pub(super) damping: Damping,
-    // whether some cell is thin, and whether the tangent takes predicted stresses in the present step (E36)
+    // whether the body is thin, and whether the tangent takes predicted stresses in the present step (E36)
     pub(super) is_thin: bool,
     pub(super) predicts: bool,
 }

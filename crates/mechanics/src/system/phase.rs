@@ -59,7 +59,7 @@ impl Default for Physics {
 /// Which stress the geometric stiffness of bodies takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GeometricStress {
-    /// The predicted one where a body is thin, else the current one.
+    /// The predicted one in shells, and in other thin bodies where no contact has friction; else the current one.
     #[default]
     Auto,
     /// The stress that the last correction predicted from the linearized strains.

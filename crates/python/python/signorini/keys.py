@@ -1850,7 +1850,7 @@ class SolverNewton(Table):
         default=20,
     )
     stress: Key[Literal["auto", "mixed", "current"], Literal["auto", "mixed", "current"]] = Key(
-        "Stress of the geometric stiffness at finite strain: `mixed` takes the stress that the last correction predicted, `auto` does in thin bodies",
+        "Stress of the geometric stiffness at finite strain: `mixed` takes the stress that the last correction predicted, `auto` does in shells, and in other thin bodies where no contact has friction",
         "`\"auto\"`, `\"mixed\"`, `\"current\"`",
         default="auto",
     )

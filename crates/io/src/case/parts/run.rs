@@ -38,7 +38,7 @@ pub struct Newton {
 /// Which stress the geometric stiffness of bodies takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GeometricStress {
-    /// The predicted one in thin bodies, else the current one.
+    /// The predicted one in shells, and in other thin bodies where no contact has friction; else the current one.
     #[default]
     Auto,
     /// The stress that the last correction predicted.

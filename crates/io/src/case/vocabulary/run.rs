@@ -84,7 +84,7 @@ pub(super) static NEWTON: Table = Table {
         key(
             "stress",
             Shape::Choice(&[word("auto"), word("mixed"), word("current")]),
-            "stress of the geometric stiffness at finite strain: `mixed` takes the stress that the last correction predicted, `auto` does in thin bodies",
+            "stress of the geometric stiffness at finite strain: `mixed` takes the stress that the last correction predicted, `auto` does in shells, and in other thin bodies where no contact has friction",
         )
         .or(Default::Text("auto")),
     ],
