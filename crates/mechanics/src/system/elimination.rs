@@ -229,7 +229,8 @@ impl Elimination {
     /// An arm at the start with what it has been stretched by, and its direction at the start with the dof of the stretch.
     fn stretched(&self, start: Vec3, turn: Turn, state: &State) -> (Vec3, Option<(Vec3, Dof)>) {
         let by = self.stretching(turn.carrier, turn.node);
-        let Some((unit, by)) = start.normalized().zip(by) else {
+        let along = by.and_then(|by| Some((start.normalized()?, by)));
+        let Some((unit, by)) = along else {
             return (start, None);
         };
         (start + unit * at(&state.u, by), Some((unit, by)))
@@ -543,8 +544,7 @@ impl Elimination {
         layout: &Layout,
         out: &mut impl Resolve,
     ) {
-        let arm = self.arm(state, layout, turn);
-        let row = Mat3::skew(arm).rows[turn.axis];
+        let row = Mat3::skew(self.arm(state, layout, turn)).rows[turn.axis];
         for about in (0..3).filter(|&about| about != turn.axis) {
             let rotation = layout.rotation(turn.carrier, about);
             if rotation != NO_DOF {

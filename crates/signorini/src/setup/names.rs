@@ -222,11 +222,7 @@ impl<'a> Names<'a> {
     ) -> Vec<NodeId> {
         let among = match of {
             Some(of) => self.nodes(of, found),
-            None => self.sets.get(ALL).map(|all| {
-                let mut nodes = self.mesh.nodes_of(all);
-                self.shells.to_surface(&mut nodes);
-                nodes
-            }),
+            None => self.sets.get(ALL).map(|all| self.nodes_of(all)),
         };
         let Some(among) = among else {
             return Vec::new();
@@ -393,10 +389,16 @@ impl<'a> Names<'a> {
         Some(listed.filter(|cell| seen.insert(*cell)).collect())
     }
 
+    /// The nodes of a set; of shells those of their surface. Sorted, each once.
+    fn nodes_of(&self, set: &Set) -> Vec<NodeId> {
+        let mut nodes = self.mesh.nodes_of(set);
+        self.shells.to_surface(&mut nodes);
+        nodes
+    }
+
     /// The nodes of a set.
     pub fn nodes(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<NodeId>> {
-        let mut nodes = self.mesh.nodes_of(self.get(name, found)?);
-        self.shells.to_surface(&mut nodes);
+        let nodes = self.nodes_of(self.get(name, found)?);
         if nodes.is_empty() {
             found.push(
                 Diagnostic::error(&codes::WRONG_KIND, format!("{} is empty", quoted(name)))
@@ -615,13 +617,8 @@ impl<'a> Names<'a> {
 
     /// The nodes of every set.
     pub fn node_sets(&self) -> BTreeMap<String, Vec<NodeId>> {
-        let of_set = |set| {
-            let mut nodes = self.mesh.nodes_of(set);
-            self.shells.to_surface(&mut nodes);
-            nodes
-        };
         let sets = self.sets.iter();
-        sets.map(|(name, set)| (name.clone(), of_set(set)))
+        sets.map(|(name, set)| (name.clone(), self.nodes_of(set)))
             .collect()
     }
 }

@@ -9,7 +9,7 @@ use super::loads::{self, Coupling};
 use super::names::Names;
 use super::nonlinear::nonlinear;
 use super::quoted;
-use super::shells::{Rotations, no_rotations};
+use super::shells::Rotations;
 use crate::own::Own;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_io::case::{
@@ -505,6 +505,15 @@ fn runs_on(change: &Change) -> bool {
         Change::Prescribe(_, motions) => motions.iter().any(|(_, motion)| motion.goes_on()),
         Change::Release(..) => false,
     }
+}
+
+/// The message on rotations of nodes that have none.
+fn no_rotations(on: &Name, place: &Place) -> Diagnostic {
+    let text = format!("the nodes of {} have no rotations", quoted(on));
+    let one = Diagnostic::error(&codes::WRONG_KIND, text).at(place, "nodes of solids only move");
+    one.help(
+        "leave the rotations away; or tie the nodes to a [reference] by a kinematic [[constraint]], and name the reference here",
+    )
 }
 
 /// Those components that a target has: nodes do not turn.

@@ -4,7 +4,7 @@ use super::super::ShellSide;
 use super::*;
 use crate::mesh::{Face, Set};
 
-/// A brick with a sheet on its top and a sheet beside it; only the second is a shell.
+/// A brick with a sheet on its top and a sheet next to it; only the second is a shell.
 fn brick_and_sheets() -> (Mesh, Vec<ShellCell>) {
     let mut mesh = Mesh::default();
     for z in [0.0, 1.0] {

@@ -644,7 +644,7 @@ fn contact_and_ties_name_faces_and_nodes_of_shells() {
         "{named:?}"
     );
     assert!(named.contains(&("N", "SOLE")), "{named:?}");
-    // a shell of one by one, across which nothing is told from its z
+    // its tolerance is positive, though the shell is flat
     let tie = contacts
         .iter()
         .find(|one| one.secondary.as_str() == "LID")

@@ -201,12 +201,7 @@ impl Points {
     /// its map has no inverse.
     pub fn stretch_of_middle(&self, x: &[Vec3]) -> f64 {
         let dshape = &self.dshape_at_centre;
-        let mut jacobian = Mat3::ZERO;
-        for (x, d) in x.iter().zip(dshape) {
-            for (row, slope) in jacobian.rows.iter_mut().zip(d.to_array()) {
-                *row += *x * slope;
-            }
-        }
+        let jacobian = map(x, dshape);
         let Some((inverse, det)) = jacobian.inverse() else {
             return 0.0;
         };
@@ -220,12 +215,7 @@ impl Points {
     /// The largest extent over the smallest of a cell whose nodes are at `x`: of the singular values of the map from the
     /// reference element at the centre. Not finite where that has no inverse.
     pub fn slenderness(&self, x: &[Vec3]) -> f64 {
-        let mut map = Mat3::ZERO;
-        for (x, slope) in x.iter().zip(&self.dshape_at_centre) {
-            for (row, slope) in map.rows.iter_mut().zip(slope.to_array()) {
-                *row += *x * slope;
-            }
-        }
+        let map = map(x, &self.dshape_at_centre);
         let mut squares = Sym3::gram(map.transpose()).eigenvalues();
         squares.sort_by(f64::total_cmp);
         let [.., largest] = squares;
@@ -238,13 +228,9 @@ impl Points {
     pub fn stretch(&self, x: &[Vec3], space: Idealisation) -> f64 {
         let weights = self.rule.weights.iter().enumerate();
         let at_point = weights.map(|(point, weight)| {
-            let (mut jacobian, mut at) = (Mat3::ZERO, Vec3::ZERO);
-            for ((x, n), d) in x.iter().zip(self.shape(point)).zip(self.dshape(point)) {
-                at += *x * *n;
-                for (row, slope) in jacobian.rows.iter_mut().zip(d.to_array()) {
-                    *row += *x * slope;
-                }
-            }
+            let mut jacobian = map(x, self.dshape(point));
+            let shape = x.iter().zip(self.shape(point));
+            let at = shape.fold(Vec3::ZERO, |at, (x, n)| at + *x * *n);
             if space.ndim() == 2 {
                 jacobian.rows[2] = Vec3::unit(2);
             }
@@ -257,4 +243,15 @@ impl Points {
         });
         at_point.sum()
     }
+}
+
+/// The rows `∂x/∂ξ_a` of the map from the reference element, along all of its axes.
+fn map(x: &[Vec3], dshape: &[Vec3]) -> Mat3 {
+    let mut map = Mat3::ZERO;
+    for (x, slopes) in x.iter().zip(dshape) {
+        for (row, slope) in map.rows.iter_mut().zip(slopes.to_array()) {
+            *row += *x * slope;
+        }
+    }
+    map
 }

@@ -28,15 +28,15 @@ use super::stiffness::{add_force, add_stiffness, add_thermal, contract, mirror};
 use crate::material::{MaterialError, Order, Response};
 
 /// Newton steps before it is given up.
-const STEPS: usize = 25;
+pub(super) const STEPS: usize = 25;
 
 /// The force on the modes, relative to what adds up to it, at which they are in equilibrium: what it leaves is second
 /// order in forces, by (E12).
-const BALANCED: f64 = 1e-9;
+pub(super) const BALANCED: f64 = 1e-9;
 
-/// A step of the modes, relative to the displacements of the nodes, that is rounding: where stresses cancel, as in a body
+/// A step of the modes, relative to the displacements of the nodes or to the strains, that is rounding: where stresses cancel, as in a body
 /// that expands freely, there is no size of forces to compare with.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// The largest number of numbers that describe the modes.
 const MOST: usize = 9;
@@ -133,7 +133,7 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
 }
 
 /// The largest size of numbers.
-fn largest<'a>(numbers: impl Iterator<Item = &'a f64>) -> f64 {
+pub(super) fn largest<'a>(numbers: impl Iterator<Item = &'a f64>) -> f64 {
     numbers.fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 

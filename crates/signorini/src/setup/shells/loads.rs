@@ -4,7 +4,7 @@ use super::solids::Shells;
 use crate::setup::quoted;
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{Load, Name};
+use signorini_io::case::Load;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::load::{Acting, Line, Place};
 use std::collections::BTreeMap;
@@ -89,16 +89,4 @@ fn thickness(face: Face, mesh: &Mesh) -> Option<f64> {
     let lengths = across.filter_map(|(&a, &b)| Some((point(b)? - point(a)?).norm()));
     let lengths: Vec<f64> = lengths.collect();
     (!lengths.is_empty()).then(|| lengths.iter().sum::<f64>() / lengths.len() as f64)
-}
-
-/// The message on rotations of nodes that are no nodes of shells.
-pub(in crate::setup) fn no_rotations(
-    on: &Name,
-    place: &signorini_io::diagnostic::Place,
-) -> Diagnostic {
-    let text = format!("the nodes of {} have no rotations", quoted(on));
-    let one = Diagnostic::error(&codes::WRONG_KIND, text).at(place, "nodes of solids only move");
-    one.help(
-        "leave the rotations away; or tie the nodes to a [reference] by a kinematic [[constraint]], and name the reference here",
-    )
 }

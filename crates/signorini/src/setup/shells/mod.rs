@@ -16,6 +16,6 @@ mod solids;
 mod temperatures;
 
 pub(super) use expand::expanded;
-pub(super) use loads::{line_load, moments, no_rotations};
+pub(super) use loads::{line_load, moments};
 pub(super) use rotations::Rotations;
 pub(super) use solids::Shells;

@@ -41,6 +41,7 @@
 mod strains;
 
 use super::element::{Element, Failure, Output};
+use super::modes::{BALANCED, ROUNDING, STEPS, largest};
 use crate::material::dense;
 use crate::material::{Kinematics, MaterialError, Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -48,16 +49,6 @@ use strains::{AtPoint, Geometry, MODES, N, NB, Variation, Voigt};
 
 /// Numbers of history of the modes.
 pub(in crate::solid) const NMODE: usize = MODES;
-
-/// Newton steps of the modes before they are given up.
-const STEPS: usize = 25;
-
-/// The force on the modes, relative to what adds up to it, at which they are in equilibrium: what it leaves is second
-/// order in forces, by (E12).
-const BALANCED: f64 = 1e-9;
-
-/// A step of the modes, relative to the largest strain, that is rounding.
-const ROUNDING: f64 = 1e-13;
 
 const NOT_BALANCED: Failure = Failure::Material(MaterialError::NotConverged {
     what: "equilibrium of its enhanced modes",
@@ -207,22 +198,18 @@ fn balance(
             .zip(terms)
             .for_each(|(to, (f, l))| *to = [*f, *l]);
         modes.solve(&mut right)?;
-        let left = largest(&modes.force);
-        let change = largest(&right.map(|row| row[0]));
+        let left = largest(modes.force.iter());
+        let change = largest(right.iter().map(|row| &row[0]));
         values
             .iter_mut()
             .zip(&right)
             .for_each(|(mode, row)| *mode -= row[0]);
-        let scale = largest(&modes.size);
+        let scale = largest(modes.size.iter());
         if is_linear || left <= BALANCED * scale || change <= ROUNDING * modes.strain {
             return Ok(right.map(|row| row[1]));
         }
     }
     Err(NOT_BALANCED)
-}
-
-fn largest(numbers: &[f64; MODES]) -> f64 {
-    numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// The force on the unknowns, and what modes and unknowns are against one another: `K_αu`, where a stiffness is wanted, and the
